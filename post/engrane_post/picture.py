@@ -166,7 +166,7 @@ def picture(
         view.dress(plotter, title if i == 0 else "", "" if bare else view.caption(result, frame))
         if bare:
             plotter.set_background("white")
-        view.aim(plotter, scene, frames, view_from, zoom, upward, BAR if field else 0.0)
+        view.aim(plotter, scene, frames, view_from, zoom, upward, BAR if field else 0.0, not bare)
         plotter.enable_anti_aliasing("ssaa")
     plotter.screenshot(path)
     plotter.close()

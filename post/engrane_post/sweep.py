@@ -24,6 +24,7 @@ KEPT = re.compile(r"\d+(\.partial)?\.(h5|lst|xdmf)")  # files of a variant
 EXAMPLES = """  engrane sweep gear.dat -D KM=1E8:1E9:1E8 --result "ELEMENT 7 NORMAL_FORCE MAX"
   engrane sweep gear.dat -D JEU=0,1E-5,1E-4 -D SPEED=100:500:50 --result "ELEMENT 7 TE RMS WINDOW 0.1 0.2"
   engrane sweep gear.dat -D KM=1E8:1E9:1E8 -D J=0.3 -j 2 --keep runs
+  engrane sweep gear.dat -D KM=1E8:1E9:1E8 --card ".SUB TF 0.1 H 1E-5"
 
 -D NAME=from:to:step gives the deck's abbreviation /NAME each of these values, NAME=a,b,c those listed, NAME=a
 one; every combination is run, in a process of its own. --result names a number as .CHK does, without what it
@@ -65,6 +66,13 @@ def add(commands: argparse._SubParsersAction) -> None:
         required=True,
         metavar="NAME=VALUES",
         help="from:to:step, a list a,b,c or one value; may be repeated",
+    )
+    p.add_argument(
+        "--card",
+        action="append",
+        default=[],
+        metavar="CARD",
+        help='a card in the place of the deck\'s, in every run: ".SUB TF 1 H 1E-4"; may be repeated',
     )
     runs.arguments(p, "_sweep", "one per core")
     p.set_defaults(run=run)
@@ -116,10 +124,10 @@ def run(args: argparse.Namespace) -> int:
     variants = combinations(args.define)
     deck = runs.find_deck(args.deck)
     output = runs.output_prefix(args.output, deck, "_sweep")
-    wanted = [f"--result={result}" for result in args.result]
+    wanted = [f"--result={result}" for result in args.result] + [f"--card={card}" for card in args.card]
     width = len(str(len(variants)))
     if args.keep:
-        record_in(Path(args.keep), deck, variants)
+        record_in(Path(args.keep), deck, variants, args.card)
     with runs.result_folder(args.keep) as folder:
         for i, variant in enumerate(variants):
             words = [f"-D{name}={value}" for name, value in variant.values.items()]
@@ -148,10 +156,10 @@ def run(args: argparse.Namespace) -> int:
     return max((v.run.status for v in variants), key=runs.STATUSES.index)
 
 
-def record_in(folder: Path, deck: str, variants: list[Variant]) -> None:
+def record_in(folder: Path, deck: str, variants: list[Variant], cards: list[str]) -> None:
     """Notes in the folder which sweep its results will be of. Those of another are not mixed with them; the
     same sweep may be repeated, as after it was stopped."""
-    sweep = {"deck": str(Path(deck).resolve()), "variants": [v.values for v in variants]}
+    sweep = {"deck": str(Path(deck).resolve()), "variants": [v.values for v in variants], "cards": cards}
     record = folder / RECORD
     try:
         same = json.loads(record.read_text(encoding="utf-8")) == sweep
@@ -161,7 +169,8 @@ def record_in(folder: Path, deck: str, variants: list[Variant]) -> None:
     if old := next((name for name in there if KEPT.fullmatch(name)), None):
         raise UserError(
             f"--keep {folder}: the folder holds results of another sweep, {old} for one. Name another "
-            "folder, or empty this one. Only a sweep of the same deck with the same values may be repeated."
+            "folder, or empty this one. Only a sweep of the same deck with the same values and cards may be "
+            "repeated."
         )
     folder.mkdir(parents=True, exist_ok=True)
     record.write_text(json.dumps(sweep, indent=1) + "\n", encoding="utf-8")

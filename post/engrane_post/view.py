@@ -18,6 +18,9 @@ DIRECTIONS = {
     "top": (0, 1, 0),
     "bottom": (0, -1, 0),
 }
+MARGIN = 1.12  # of the picture over the model
+BELOW = 0.03  # of the height, under the caption
+LINE = 26  # pixels: the height of a line of text
 
 
 def direction(scene: Scene, frames: list[Frame]) -> tuple[np.ndarray, np.ndarray]:
@@ -88,9 +91,11 @@ def aim(
     zoom: float = 1.0,
     upward: str | None = None,
     left: float = 0.0,
+    written: bool = True,
 ) -> None:
     """Points the camera of the current view at everything the frames show; `upward` is x, y or z, `left` the
-    part of the width that stays free for a colour bar."""
+    part of the width that stays free for a colour bar. With `written`, so does the height of title and
+    caption."""
     eye, up = direction(scene, frames)
     if view:
         eye = eye_of(view)
@@ -112,10 +117,11 @@ def aim(
     slope = np.tan(np.radians(angle / 2))
     aspect = plotter.window_size[0] / plotter.shape[1] / plotter.window_size[1]
     offset = corners - middle
+    lines = BELOW + LINE / plotter.window_size[1] if written else 0.0
+    upright = max(MARGIN, 1 / max(0.5, 1 - 2 * lines))
     reach = (
-        np.maximum(np.abs(offset @ vertical), np.abs(offset @ side) / aspect / (1 - left))
+        np.maximum(np.abs(offset @ vertical) * upright, np.abs(offset @ side) * MARGIN / aspect / (1 - left))
         / slope
-        * 1.12
         / zoom
     )
     distance = float((reach + offset @ eye).max())
@@ -154,7 +160,7 @@ def write(plotter: pv.Plotter, text: str, place: tuple[float, float], name: str)
 
 def write_caption(plotter: pv.Plotter, text: str) -> None:
     """Below on the right, instead of the one before."""
-    write(plotter, text, (min(0.78, 1 - 0.0125 * len(text)), 0.03), "caption")
+    write(plotter, text, (min(0.78, 1 - 0.0125 * len(text)), BELOW), "caption")
 
 
 def caption(result: Results, frame: Frame) -> str:

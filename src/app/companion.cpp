@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/companion.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -58,6 +61,16 @@ Vec3 nearest_rotation_vector(const Vec3& v, const Vec3& other) {
   const double angle = v.norm();
   if (angle == 0) return v;
   return v * (1 + turn / angle * std::round((v.dot(other) / angle - angle) / turn));
+}
+
+/// Why there is no error to state, given the channels asked for that are never judged and whether others are asked for.
+std::string why_none(const std::vector<std::string>& unjudged, bool others) {
+  constexpr std::size_t most_named = 3;
+  if (unjudged.empty()) return "nothing that is asked for changes";
+  const auto end = unjudged.begin() + static_cast<std::ptrdiff_t>(std::min(unjudged.size(), most_named));
+  return fmt::format("{}{} {} never judged, as no ratio, state or ENERGY_ERROR is{}; ask for a motion or a force beside",
+                     fmt::join(unjudged.begin(), end, ", "), end == unjudged.end() ? "" : " and others",
+                     unjudged.size() == 1 ? "is" : "are", others ? ", and nothing else that is asked for changes" : "");
 }
 
 }  // namespace
@@ -159,8 +172,12 @@ void Companion::choose_columns(const observe::Observer& observer, const Model& m
   if (!selected)
     for (const deck::CheckCard& check : model.commands.checks)
       (check.element || check.node ? asked : asked_of_run).insert(checked_channel(observer, check));
-  const auto choose = [this](int at, const std::string& owner, const Channel& channel, int part = -1) {
-    if (channel.course != Channel::Course::smooth && channel.course != Channel::Course::size) return;
+  const bool named = selected || !asked.empty();
+  const auto choose = [this, named](int at, const std::string& owner, const Channel& channel, int part = -1) {
+    if (channel.course != Channel::Course::smooth && channel.course != Channel::Course::size) {
+      if (named) unjudged_.push_back(owner + "/" + channel.name);
+      return;
+    }
     columns_.push_back({static_cast<std::size_t>(at), static_cast<std::size_t>(at), owner, channel.name, channel.dimension, 0,
                         std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()});
     columns_.back().part = part;
@@ -182,7 +199,12 @@ void Companion::choose_columns(const observe::Observer& observer, const Model& m
     for (std::size_t k = 0; k < 3; ++k) columns_[c + k].component = static_cast<int>(k);
   }
   for (const Channel& channel : observer.run_channels()) {
-    if (asked_of_run.count(at) > 0 && channel.name != "ENERGY_ERROR") choose(at, "run", channel);  // that is an error itself
+    if (asked_of_run.count(at) > 0) {
+      if (channel.name == "ENERGY_ERROR")
+        unjudged_.push_back("run/" + channel.name);  // that is an error itself
+      else
+        choose(at, "run", channel);
+    }
     ++at;
   }
   placed_ = asked.empty();  // else the run has more histories than this one
@@ -364,7 +386,7 @@ ErrorEstimate Companion::estimate(long steps) const {
       found.channel = column.owner + "/" + column.channel;
     }
   }
-  if (found.channel.empty()) found.trouble = "nothing that is asked for changes";
+  if (found.channel.empty()) found.trouble = why_none(unjudged_, !columns_.empty());
   return found;
 }
 

@@ -100,6 +100,7 @@ class Companion {
   /// Largest range of a column that may be rounding and residuals of iterations alone, given the largest of all channels.
   double noise_of(const Column& column, const std::vector<Largest>& all) const;
   std::vector<Column> columns_;
+  std::vector<std::string> unjudged_;    ///< channels asked for by name that are never compared
   bool placed_ = true;                   ///< Column::at is known
   bool judges_run_ = false;              ///< a channel of the whole model is compared
   double handled_ = 0;                   ///< EnergyBalance::handled() of the run itself

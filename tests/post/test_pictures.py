@@ -229,6 +229,36 @@ def test_picture(two: Path, bevel: Path, command, tmp_path: Path) -> None:
         assert (saturation > 60).mean() > 0.01  # something coloured is there
 
 
+@pytest.mark.parametrize("size", ["900x480", "600x300", "1400x1000"])
+def test_the_caption_covers_no_model(tmp_path: Path, command, monkeypatch, size: str) -> None:
+    """A plate as broad as the caption, which fills the height of the picture."""
+    from engrane_post import view
+    from PIL import Image
+
+    points = {i + 1: p for i, p in enumerate([(0, 0, 0), (2, 0, 0), (2, 1.1, 0), (0, 1.1, 0)])}
+    path = models.write(
+        tmp_path / "m.h5",
+        points,
+        [dict(id=1, type="MEMBRANE", nodes=[1, 2, 3, 4])],
+        np.array([0.0]),
+        np.zeros((1, 4, 3)),
+        cells=[(5, [0, 1, 2, 3], 1)],
+    )
+
+    def drawn() -> np.ndarray:
+        words = ("--view", "front", "--deformed", "100", "--size", size, "-o", tmp_path / "m.png")
+        assert command("picture", path, *words)[0] == 0
+        return np.asarray(Image.open(tmp_path / "m.png").convert("RGB")).astype(int)
+
+    with_text = drawn()
+    monkeypatch.setattr(view, "caption", lambda *_: "")
+    without = drawn()
+    letters = np.abs(with_text - without).max(axis=-1) > 30
+    assert letters.sum() > 100
+    background = np.abs(without - without[:, :1]).max(axis=-1) <= 6
+    assert background[letters].all()
+
+
 def test_membrane_and_beam(tmp_path: Path, command) -> None:
     points = {i + 1: p for i, p in enumerate([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (2, 0, 0.5)])}
     elements = [dict(id=1, type="MEMBRANE", nodes=[1, 2, 3, 4]), dict(id=2, type="BEAM", nodes=[2, 5])]

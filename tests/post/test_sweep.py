@@ -73,6 +73,19 @@ def test_table_and_diagram(deck: Path, command) -> None:
     assert not list(deck.parent.glob("**/*.h5")), "runs leave nothing unless they are kept"
 
 
+def test_cards_replace_those_of_the_deck(deck: Path, command) -> None:
+    words = ("-D", "L=0.2,0.4", "--result", "RUN STEP", "--keep", "runs")
+    card = ("--card", ".SUB TF 0.05 H 0.0025", "--card", ".SAM TYPE DYNAMIC SCHEME RADAU")
+    assert command("sweep", deck, *words, *card)[0] == 0
+    steps = [float(row["RUN STEP at the end"]) for row in table(Path("pendulum_sweep.csv"))]
+    assert steps == pytest.approx([0.0025, 0.0025])
+    assert "RADAU" in Path("runs/1.lst").read_text()
+    status, _, err = command("sweep", deck, *words)
+    assert status == 1 and "results of another sweep" in err, "other cards make another sweep"
+    status, _, err = command("sweep", deck, *words[:4], "--card", ".SUB TF 1")
+    assert status == 1 and ".SUB lacks H" in err
+
+
 def test_checks_are_the_results_and_runs_are_kept(deck: Path, command) -> None:
     status, _, _ = command("sweep", "pendulum", "-D", "L=0.2,0.4", "--keep", "runs", "-o", "table.csv")
     assert status == 0

@@ -93,5 +93,18 @@ TEST(Help, SearchesTheTexts) {
   EXPECT_NE(hinge.find("\nHINGE (also"), std::string::npos);
 }
 
+TEST(Help, LeadsFromWhatMachinesAreCalled) {
+  for (const auto& [words, card] :
+       {std::pair{"piston", "GAS"}, {"gas spring", "GAS"}, {"tensioner", "BELT"}, {"idler", "BELT"}, {"idler", "GEAR"}}) {
+    const auto found = found_by(words);
+    EXPECT_NE(std::find(found.begin(), found.end(), card), found.end()) << words;
+  }
+  const Catalogue all = engrane::catalogue(element_types());
+  const std::string toothed = help_for(all, "timing belt");
+  EXPECT_TRUE(toothed.starts_with("TIMING_BELT is called BELT here. A toothed belt")) << toothed.substr(0, 100);
+  for (const char* word : {"tensioner", "idler", "eigenvalue", "modal"})
+    EXPECT_NE(help_for(all, word).find("not in this version"), std::string::npos) << word;
+}
+
 }  // namespace
 }  // namespace engrane::deck

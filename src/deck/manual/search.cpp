@@ -156,7 +156,8 @@ std::string help_for(const Catalogue& catalogue, const std::string& text) {
   const auto found = find_concepts(text);
   if (found.size() == 1 && found.front()->cards.size() == 1)
     if (const Schema* card = catalogue.find(found.front()->cards.front()))
-      return plain_word(text) + " is called " + card->name + " here.\n\n" + help_card(*card);
+      return plain_word(text) + " is called " + card->name + " here." +
+             (found.front()->advice.empty() ? "" : " " + std::string(found.front()->advice) + ".") + "\n\n" + help_card(*card);
   return help_search(catalogue, text);
 }
 

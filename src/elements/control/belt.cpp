@@ -57,7 +57,7 @@ class Belt final : public TemplatedElement<Belt, 2, 13>, public DeterminedChanne
     Layout layout;
     layout.nodes.assign(nodes.begin(), nodes.end());
     layout.needs = {NodeNeed::both, NodeNeed::both};
-    layout.history = 2 * turn_count::history;
+    layout.history = remembered + 2 * Worst::history;
     const Named pull{"PULL", dimension::length, "tension of the second span less that of the first"};
     if (law.slips)
       add_grip(layout, pull);
@@ -92,6 +92,39 @@ class Belt final : public TemplatedElement<Belt, 2, 13>, public DeterminedChanne
     const Runs<double> runs(*this, state.nodes[0], state.nodes[1], state);
     turn_count::commit(runs.line_angle, state.history.first(2), history.first(2));
     turn_count::commit(runs.turn_angle, state.history.subspan(2), history.subspan(2));
+  }
+
+  /// Also stores where friction and tension were exceeded, for remarks().
+  void commit(const State& state, std::span<double> scalars, std::span<double> history) const override {
+    count_turns(state, scalars, history);
+    const Runs<double> runs(*this, state.nodes[0], state.nodes[1], state);
+    const auto [first, second] = tensions(runs, 0, [&] { return pull(runs, state); });
+    const double tight = std::max(first, second), slack = std::min(first, second);
+    const bool loaded = tight > rounding * law_.stiffness * runs.distance;
+    const double grip = law_.friction && loaded ? grip_used(first, second, runs.distance) : 0;
+    Worst::at(state.history, 0).with(grip > 1 + beyond ? grip : 0, state.time).write(history, 0);
+    // without preload or friction the tensions of a rigid belt are not asked for
+    const bool pushes = (law_.preload > 0 || law_.friction) && slack < -beyond * tight;
+    Worst::at(state.history, 1).with(pushes ? -slack : 0, state.time).write(history, 1);
+  }
+  std::vector<std::string> remarks(std::span<const double> history) const override {
+    std::vector<std::string> list;
+    const Worst grip = Worst::at(history, 0), push = Worst::at(history, 1);
+    if (grip.most > 0)
+      list.push_back(fmt::format(
+          "GRIP_USED passed 1 at t = {:.6g} and was {:.4g} at most, at t = {:.6g}: MU does not hold such a pull, and {}. Results "
+          "since then are those of a belt that grips, as with teeth; give more PRELOAD or MU{}",
+          grip.since, grip.most, grip.when,
+          law_.slips     ? "STICK holds in STATIC and KINEMATIC"
+          : law_.rigid() ? "without STICK the belt does not slip"
+                         : "an elastic belt does not slip here",
+          law_.slips || !law_.rigid() ? "" : ", or STICK"));
+    if (push.most > 0)
+      list.push_back(fmt::format(
+          "SLACK_SIDE fell below 0 at t = {:.6g} and was {:.4g} at least, at t = {:.6g}: a rigid belt keeps its ratio by pushing "
+          "there, which no belt can; give more PRELOAD, or K or EA, with which a slack span carries nothing",
+          push.since, -push.most, push.when));
+    return list;
   }
 
   void start(std::span<double>, std::span<double> history) const override {
@@ -162,11 +195,7 @@ class Belt final : public TemplatedElement<Belt, 2, 13>, public DeterminedChanne
       write(runs.stretch(0));
       write(runs.stretch(1));
     }
-    if (law_.friction) {
-      // Euler–Eytelwein: the tight side carries at most exp(mu wrap) times the slack side
-      const double tight = std::max(first, second), most = -std::expm1(-*law_.friction * std::min(wrap_1, wrap_2));
-      write(tight > 0 ? (tight - std::max(0.0, std::min(first, second))) / (tight * most) : 0);
-    }
+    if (law_.friction) write(grip_used(first, second, runs.distance));
   }
 
   std::vector<Derived> derived() const override {
@@ -227,6 +256,38 @@ class Belt final : public TemplatedElement<Belt, 2, 13>, public DeterminedChanne
     T stretch(int i) const { return i == 0 ? T(slack_taken + roll) : T(slack_taken - roll); }
     T stretch_rate(int i) const { return i == 0 ? T(taken_rate + roll_rate) : T(taken_rate - roll_rate); }
   };
+
+  /// The largest excess of a limit over all steps, and its times, kept in the history behind the turns.
+  struct Worst {
+    double most = 0, since = 0, when = 0;  ///< 0: never exceeded; first time; time of the largest
+    static constexpr int history = 3;
+
+    static std::size_t place(int which) { return static_cast<std::size_t>(remembered + which * history); }
+    static Worst at(std::span<const double> all, int which) {
+      const auto own = all.subspan(place(which));
+      return {own[0], own[1], own[2]};
+    }
+    /// Values that are larger by rounding only keep the first time.
+    Worst with(double excess, double time) const {
+      return excess > (1 + 1e-9) * most ? Worst{excess, most > 0 ? since : time, time} : *this;
+    }
+    void write(std::span<double> all, int which) const {
+      const auto own = all.subspan(place(which));
+      own[0] = most, own[1] = since, own[2] = when;
+    }
+  };
+  static constexpr int remembered = 2 * turn_count::history;  ///< history entries before those of Worst
+  /// A limit counts as exceeded by more than this fraction: iterations and located events leave less.
+  static constexpr double beyond = 1e-3;
+  /// Of lengths: tensions from shorter stretches are rounding.
+  static constexpr double rounding = 1e-12;
+
+  /// Euler–Eytelwein: the tight side carries at most exp(mu wrap) times the slack side.
+  double grip_used(double first, double second, double distance) const {
+    const double beta = std::asin(shape_.reach() / distance), lesser = std::min(2 * beta, -2 * shape_.side * beta);
+    const double tight = std::max(first, second), most = -std::expm1(-*law_.friction * (std::numbers::pi + lesser));
+    return tight > 0 ? (tight - std::max(0.0, std::min(first, second))) / (tight * most) : 0;
+  }
 
   GripState grip_of(const State& state) const {
     return law_.slips ? GripState::of(layout(), state.history, 0) : GripState::holds_at(Vec3::Zero());

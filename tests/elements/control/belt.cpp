@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "elements/control/belt.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -187,6 +188,53 @@ TEST(Belt, GripByEytelwein) {
   const double pull = 100 * (ratio - 1) / (ratio + 1);
   plane.put(pull / 1000 / 0.2, 0);
   EXPECT_NEAR(plane.channel("GRIP_USED"), 1, 1e-12);
+}
+
+/// Commits the state at a time, as at the end of a step.
+void commit(Plane& plane, double time) {
+  std::vector<double> history = plane.state.history;
+  State state = plane.state.view();
+  state.time = time;
+  plane.element->commit(state, {}, history);
+  plane.state.history = history;
+}
+
+TEST(Belt, RemarksOnMoreThanFrictionHolds) {
+  BeltData data;
+  data.stiffness = 1000;
+  data.preload = 100;
+  data.friction = 0.3;
+  Plane plane(data);
+  const double ratio = std::exp(0.3 * (std::numbers::pi + 2 * std::asin(-0.2))), most = 100 * (ratio - 1) / (ratio + 1);
+  const auto pulled = [&](double part, double time) {
+    plane.put(part * most / 1000 / 0.2, 0);
+    commit(plane, time);
+    return plane.element->remarks(plane.state.history);
+  };
+  EXPECT_TRUE(pulled(0.99, 0.1).empty());
+  EXPECT_TRUE(pulled(1, 0.2).empty()) << "just held";
+  EXPECT_EQ(pulled(1.1, 0.3).size(), 1U);
+  pulled(1.2, 0.4);
+  const double used = plane.channel("GRIP_USED");
+  const auto remarks = pulled(0.5, 0.5);
+  ASSERT_EQ(remarks.size(), 1U) << "an elastic span does not push";
+  EXPECT_TRUE(remarks[0].starts_with(fmt::format("GRIP_USED passed 1 at t = 0.3 and was {:.4g} at most, at t = 0.4", used)))
+      << remarks[0];
+}
+
+TEST(Belt, RemarksOnARigidBeltThatPushes) {
+  for (const double preload : {40.0, 0.0}) {
+    BeltData data;
+    data.preload = preload;
+    Plane plane(data);
+    plane.state.multipliers[0] = -100;
+    commit(plane, 0.7);
+    const auto remarks = plane.element->remarks(plane.state.history);
+    ASSERT_EQ(remarks.size(), preload > 0 ? 1U : 0U) << "without preload it is a ratio, not a belt";
+    if (preload > 0) {
+      EXPECT_TRUE(remarks[0].starts_with("SLACK_SIDE fell below 0 at t = 0.7 and was -10 at least, at t = 0.7")) << remarks[0];
+    }
+  }
 }
 
 TEST(Belt, RigidRatioOverManyTurnsAndRoundTheFirstPulley) {
