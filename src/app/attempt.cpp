@@ -27,6 +27,8 @@ namespace {
 
 /// Factors with more bytes than this are announced before they are computed.
 constexpr double worth_announcing = 1e9;
+/// Runs are repeated for a vibration that steps have lost if it takes no more than so many times their number to follow it.
+constexpr double most_more_steps = 15;
 /// Least ratio of the next tolerance to the present one: estimates of coarse runs are coarse.
 constexpr double most_at_once = 0.01;
 
@@ -268,7 +270,33 @@ std::optional<Trial> Attempt::sharper() {
   next.longest = longest;
   const bool kept = longest == trial_.options.longest && companion_->serves(tolerance);
   if (kept) companion_->succeed(runner_->steps(), next);
-  return Trial{.options = next, .complete = trial_.options, .keeps_companion = kept, .differences = differences_};
+  return Trial{.options = next,
+               .complete = trial_.options,
+               .keeps_companion = kept,
+               .first_steps = first_steps(),
+               .differences = differences_};
+}
+
+ErrorEstimate Attempt::deciding_estimate(ErrorEstimate& stated) {
+  const SolverOptions& wanted = trial_.options;
+  ErrorEstimate estimate = companion_->estimate(runner_->steps());
+  stated = estimate;
+  if (!estimate.trouble.empty()) return estimate;
+  estimate.follow(trial_.differences);
+  if (steps_are_longest()) estimate.steps_reach(wanted.longest);
+  if (wanted.longest < solver_options(task_.reading.model).longest) estimate.shortened = wanted.longest;
+  const double difference = estimate.difference();
+  stated = estimate;
+  if (const LostVibrations* const lost = scheme_->lost_vibrations()) {
+    const LostChannel most = companion_->most_lost(*lost);
+    stated.include_lost(most.error, most.channel, most.period);
+    const double reach = most_more_steps * static_cast<double>(first_steps());
+    if (stated.vibration > 0 && wanted.end - begun() <= reach * stated.follows_vibration()) estimate = stated;
+  }
+  differences_ = trial_.differences;
+  // two runs that lose a vibration differ less than those that hold it
+  if (estimate.vibration == 0) differences_.push_back(difference);
+  return estimate;
 }
 
 std::array<double, 2> Attempt::sharper_steps() {
@@ -276,14 +304,8 @@ std::array<double, 2> Attempt::sharper_steps() {
   const SolverOptions& wanted = trial_.options;
   double tolerance = 0, longest = wanted.longest;
   if (rank_ == 0) {
-    ErrorEstimate estimate = companion_->estimate(runner_->steps());
-    if (estimate.trouble.empty()) {
-      estimate.follow(trial_.differences);
-      if (steps_are_longest()) estimate.steps_reach(wanted.longest);
-      if (wanted.longest < solver_options(task_.reading.model).longest) estimate.shortened = wanted.longest;
-      differences_ = trial_.differences;
-      differences_.push_back(estimate.difference());
-    }
+    ErrorEstimate stated;
+    const ErrorEstimate estimate = deciding_estimate(stated);
     const bool again = trial_.may_repeat && estimate.trouble.empty() && estimate.error > wanted.target;
     const std::string missed =
         fmt::format("engrane: the error is estimated to be {:.2g} of the range of {}, more than the {:g} asked for: again, with ",
@@ -299,7 +321,7 @@ std::array<double, 2> Attempt::sharper_steps() {
         tolerance = trial_.settled ? rung->tolerance : std::min(tolerance, rung->tolerance);
       writer_->note(fmt::format("{}TOL {:.1g}", missed, tolerance));
     } else {
-      writer_->accuracy(estimate, wanted.target, trial_.sharper_failed);
+      writer_->accuracy(stated, wanted.target, trial_.sharper_failed);
     }
   }
   std::array<double, 2> found{tolerance, longest};
@@ -310,9 +332,12 @@ std::array<double, 2> Attempt::sharper_steps() {
 bool Attempt::steps_are_longest() const {
   constexpr double nearly = 1.2;
   const SolverOptions& options = trial_.options;
-  const double begun = task_.resumption ? task_.resumption->point.time : options.begin;
-  return static_cast<double>(runner_->steps()) * options.longest < nearly * (options.end - begun);
+  return static_cast<double>(runner_->steps()) * options.longest < nearly * (options.end - begun());
 }
+
+long Attempt::first_steps() const { return trial_.first_steps > 0 ? trial_.first_steps : runner_->steps(); }
+
+double Attempt::begun() const { return task_.resumption ? task_.resumption->point.time : trial_.options.begin; }
 
 std::string Attempt::looser_before() const {
   if (!task_.resumption || !trial_.complete) return {};

@@ -65,10 +65,16 @@ class Attempt {
 
   /// The next run to make if the error of this one is too large, otherwise nothing. Collective.
   std::optional<Trial> sharper();
+  /// The estimate that decides on it: without vibrations that are far too fast for the motion. They are `stated`, not followed.
+  /// On rank 0.
+  ErrorEstimate deciding_estimate(ErrorEstimate& stated);
   /// Tolerance and longest step (time) of that run; the tolerance is 0 if there is none. Collective.
   std::array<double, 2> sharper_steps();
   /// Whether nearly every step was as long as HMAX allows, so that TOL determined few of them.
   bool steps_are_longest() const;
+  long first_steps() const;  ///< Trial::first_steps, or those of this run
+  /// Time at which the run, or its continuation, began.
+  double begun() const;
   /// A warning that the part before the restart point was solved with a looser tolerance than the rest; empty if it was not.
   std::string looser_before() const;
   void tell_condition();

@@ -54,6 +54,8 @@ constexpr std::size_t most_values = std::size_t{1} << 23, most_instants = 2000;
 constexpr double no_range = 1e-6;
 /// So is one with a range of less than this fraction of the sizes of its kind, about the residuals of iterations.
 constexpr double no_size = 1e-9;
+/// A vibration with half of the range as its amplitude, root of the mean square over time and a little more.
+constexpr double largest_lost = 0.4;
 
 /// The rotation vector of the same rotation that is nearest to `other`: as many turns about its axis are added as it takes.
 Vec3 nearest_rotation_vector(const Vec3& v, const Vec3& other) {
@@ -93,6 +95,7 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
   SolverOptions loose =
       with_tolerance(model, options, std::min(looser * options.tolerance, std::max(loosest, 2 * options.tolerance)));
   loose.longest *= longer;
+  loose.target = 0;  // it needs no estimate of its own
   precision_ = loose.precision;
   estimate_.tolerance = options.tolerance;
   estimate_.begins_looser = options.family == SolverOptions::Family::radau;
@@ -173,7 +176,8 @@ void Companion::choose_columns(const observe::Observer& observer, const Model& m
     for (const deck::CheckCard& check : model.commands.checks)
       (check.element || check.node ? asked : asked_of_run).insert(checked_channel(observer, check));
   const bool named = selected || !asked.empty();
-  const auto choose = [this, named](int at, const std::string& owner, const Channel& channel, int part = -1) {
+  const auto choose = [this, named, &model](int at, const std::string& owner, const Channel& channel, int part = -1,
+                                            int node = -1) {
     if (channel.course != Channel::Course::smooth && channel.course != Channel::Course::size) {
       if (named) unjudged_.push_back(owner + "/" + channel.name);
       return;
@@ -181,6 +185,8 @@ void Companion::choose_columns(const observe::Observer& observer, const Model& m
     columns_.push_back({static_cast<std::size_t>(at), static_cast<std::size_t>(at), owner, channel.name, channel.dimension, 0,
                         std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()});
     columns_.back().part = part;
+    if (part >= 0) columns_.back().nodes = model.parts[static_cast<std::size_t>(part)].nodes;
+    columns_.back().node = node;
   };
   int at = 0;
   for (const observe::Table& table : observer.tables()) {
@@ -188,7 +194,8 @@ void Companion::choose_columns(const observe::Observer& observer, const Model& m
     for (std::size_t owner = 0; owner < table.ids.size(); ++owner)
       for (const Channel& channel : table.channels) {
         if (asked.empty() || asked.count(at) > 0)
-          choose(at, kind + std::to_string(table.ids[owner]), channel, kind == "element/" ? table.owners[owner] : -1);
+          choose(at, kind + std::to_string(table.ids[owner]), channel, kind == "element/" ? table.owners[owner] : -1,
+                 kind == "node/" ? table.owners[owner] : -1);
         ++at;
       }
   }
@@ -361,6 +368,50 @@ double Companion::noise_of(const Column& column, const std::vector<Largest>& all
       noise = std::max(noise, no_size * size);
   }
   return noise;
+}
+
+LostChannel Companion::lost_acceleration(const Column& column, const LostVibrations& lost) const {
+  const bool turns = column.dimension == dimension::angular_acceleration;
+  if (column.node < 0 || (!turns && column.dimension != dimension::acceleration)) return {};
+  const auto first = static_cast<std::size_t>(6 * column.node + (turns ? 3 : 0));
+  const auto axis = static_cast<std::size_t>(column.channel.back() - 'X');
+  double missing = lost.missing(first + axis), range = column.range();
+  // rotations have axes of their own: all of their part is compared with all of the range
+  if (turns && column.component >= 0) {
+    missing = std::hypot(lost.missing(first), lost.missing(first + 1), lost.missing(first + 2));
+    const Column* const x = &column - column.component;
+    range = std::hypot(x[0].range(), x[1].range(), x[2].range());
+    // it is told of the one that changes most
+    if (column.range() < std::max({x[0].range(), x[1].range(), x[2].range()})) return {};
+  }
+  return {missing / range, column.owner + "/" + column.channel, lost.period(first)};
+}
+
+LostChannel Companion::lost_force(const Column& column, const LostVibrations& lost) const {
+  if (column.dimension != dimension::force) return {};  // moments have the dimension of energies
+  // which of the forces of an element it is cannot be told: the one that changes most
+  for (const Column& other : columns_)
+    if (other.part == column.part && other.dimension == column.dimension && other.range() > column.range()) return {};
+  LostChannel most;
+  for (const int node : column.nodes) {
+    if (node == 0) continue;
+    const auto first = static_cast<std::size_t>(6 * node);
+    const double error = lost.missing_force(first) / column.range();
+    // the force has shown what was lost, unless another element carries it
+    if (error > most.error && error < largest_lost) most = {error, column.owner + "/" + column.channel, lost.period(first)};
+  }
+  return most;
+}
+
+LostChannel Companion::most_lost(const LostVibrations& lost) const {
+  LostChannel most;
+  const std::vector<Largest> all = largest_by_dimension();
+  for (const Column& column : columns_) {
+    if (!(column.range() > noise_of(column, all))) continue;
+    const LostChannel found = column.part < 0 ? lost_acceleration(column, lost) : lost_force(column, lost);
+    if (found.error > most.error) most = found;
+  }
+  return most;
 }
 
 ErrorEstimate Companion::estimate(long steps) const {

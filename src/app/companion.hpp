@@ -13,10 +13,18 @@
 #include "model/solver_options.hpp"
 #include "observe/observer.hpp"
 #include "solve/algebra/references.hpp"
+#include "solve/schemes/lost_vibrations.hpp"
 
 namespace engrane::app {
 
 struct Resumption;
+
+/// A channel with an error of its own: relative to the range of the channel, by a vibration with this period.
+struct LostChannel {
+  double error = 0;
+  std::string channel;
+  double period = 0;
+};
 
 /// The options with another TOL, and with it what follows from TOL: how far iterations go, and how sharply events are met.
 SolverOptions with_tolerance(const Model& model, const SolverOptions& options, double tolerance);
@@ -41,6 +49,9 @@ class Companion {
   void widen(const observe::Observer& observer);
   /// The estimate after the run itself has ended with this number of steps. On rank 0.
   ErrorEstimate estimate(long steps) const;
+  /// Of the channels that are compared, the acceleration of a node or the force of an element with the largest part lost by steps
+  /// of the run itself. On rank 0, after estimate().
+  LostChannel most_lost(const solve::LostVibrations& lost) const;
   /// Why the companion run failed; empty if it did not. On all ranks.
   const std::string& trouble() const { return estimate_.trouble; }
   /// Whether the run itself may be the companion of one with this tolerance. On all ranks.
@@ -72,10 +83,12 @@ class Companion {
     std::string owner, channel;
     Dimension dimension;
     double squares = 0, least = 0, largest = 0;
-    double before = 0;   ///< difference between the companion and its own companion; 0: it had none
-    int part = -1;       ///< element (index into Model::parts); −1: not a channel of an element
-    int component = -1;  ///< 0 to 2, of a vector of a node whose three columns are adjacent; −1: not one of these
-    double load = 0;     ///< for a force or moment: the largest load on the nodes of its element
+    double before = 0;            ///< difference between the companion and its own companion; 0: it had none
+    std::vector<int> nodes = {};  ///< of the element: indices into Model::nodes
+    int part = -1;                ///< element (index into Model::parts); −1: not a channel of an element
+    int node = -1;                ///< index into Model::nodes; −1: not a channel of a node
+    int component = -1;           ///< 0 to 2, of a vector of a node whose three columns are adjacent; −1: not one of these
+    double load = 0;              ///< for a force or moment: the largest load on the nodes of its element
 
     void include(double value) {
       least = std::min(least, value);
@@ -90,6 +103,10 @@ class Companion {
     double range = 0, size = 0;
   };
   /// Difference between the run and its companion in a column, from their rows of values at an instant.
+  /// The part of an acceleration, or of a force, that steps have lost, over its range; an element has the forces of inertia of
+  /// its nodes.
+  LostChannel lost_acceleration(const Column& column, const solve::LostVibrations& lost) const;
+  LostChannel lost_force(const Column& column, const solve::LostVibrations& lost) const;
   double difference(std::size_t column, const double* run, const double* companion) const;
   /// Difference between the two runs in a channel: root of the mean square over time.
   double difference(const Column& column) const;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace engrane::app {
 
@@ -12,21 +13,43 @@ namespace {
 
 /// A difference of runs has fallen if it is this part of an earlier one.
 constexpr double falling = 0.5;
+/// Differences no larger than others by more than this are about the same.
+constexpr double same = 2;
+/// A step of this over ω loses 1.6e-5 of a vibration: a hundredth in 70 periods.
+constexpr double followed = 0.7;
+/// What is lost falls with a power of TOL between 0, while all of it is lost, and 1.75: a step loses (ωh)⁶, and TOL allows
+/// (ωh)⁴ of its velocity. This one takes one or two repeats.
+constexpr double order_of_lost = 1.5;
 
 }  // namespace
 
 void ErrorEstimate::follow(const std::vector<double>& differences) {
-  constexpr std::size_t enough = 2;
+  constexpr std::size_t enough = 2, most = 4;
   if (differences.size() < enough || difference() < falling * differences.front()) return;
+  const auto [least, largest] = std::minmax({differences.end()[-2], differences.back(), difference()});
+  // a vibration that the first runs damp makes later ones differ more; chaos makes all differ alike
+  if (differences.size() < most && largest > same * least) return;
   falls = false;
   error = difference();
   share = 1;
+}
+
+void ErrorEstimate::include_lost(double lost, const std::string& where, double period) {
+  if (!(lost > error)) return;
+  error = lost;
+  channel = where;
+  vibration = period;
+  share = 1;
+  order = order_of_lost;
+  falls = true;
 }
 
 void ErrorEstimate::steps_reach(double longest_step) {
   longest = longest_step;
   falls = true;
 }
+
+double ErrorEstimate::follows_vibration() const { return followed * vibration / (2 * std::numbers::pi); }
 
 double ErrorEstimate::longest_for(double target, const std::vector<double>& differences) const {
   constexpr double most_at_once = 0.1, least = 0.7;
@@ -59,19 +82,29 @@ std::string ErrorEstimate::warning(double target, const std::string& sharper_fai
         "one will not make this motion certain. It is chaotic, or goes through many impacts; averages over time may still be "
         "right",
         companion_tolerance, tolerance, error, channel);
+  std::string advice = sharper_failed;
+  if (advice.empty() && vibration > 0)
+    advice = fmt::format(
+        "steps lose a vibration with a period of about {:.2g}. Where it matters take HMAX {:.2g} in .SUB; where it does not, "
+        "give what vibrates some damping",
+        vibration, follows_vibration());
+  else if (advice.empty())
+    advice = longest > 0 ? fmt::format("take HMAX {:.1g} in .SUB", longest_for(target, {}))
+                         : fmt::format("take TOL {:.1g} in .SUB", tolerance_for(target));
   return fmt::format("the error is estimated to be {:.2g} of the range of {}, more than the {:g} asked for: {}", error, channel,
-                     target,
-                     !sharper_failed.empty() ? sharper_failed
-                     : longest > 0           ? fmt::format("take HMAX {:.1g} in .SUB", longest_for(target, {}))
-                                             : fmt::format("take TOL {:.1g} in .SUB", tolerance_for(target)));
+                     target, advice);
 }
 
 std::string ErrorEstimate::describe(double target) const {
   std::string text =
       fmt::format("  asked for          {:g} of the range of each channel, root of the mean square over time\n", target);
   if (!trouble.empty()) return text + "  estimated error    none: " + trouble + "\n";
-  text += fmt::format("  estimated error    {:.2g}, {}; by a second run with TOL {:.2g}, where this one has {:.2g}{}\n", error,
-                      channel, companion_tolerance, tolerance, falls ? "" : "; it does not fall with TOL");
+  if (vibration > 0)
+    text += fmt::format("  estimated error    {:.2g}, {}; steps lose a vibration with a period of about {:.2g}; TOL {:.2g}\n",
+                        error, channel, vibration, tolerance);
+  else
+    text += fmt::format("  estimated error    {:.2g}, {}; by a second run with TOL {:.2g}, where this one has {:.2g}{}\n", error,
+                        channel, companion_tolerance, tolerance, falls ? "" : "; it does not fall with TOL");
   if (since)
     text += fmt::format(
         "  estimated from     t = {:.6g} on, where the run was continued; the error of the state there, from which it "
@@ -83,7 +116,7 @@ std::string ErrorEstimate::describe(double target) const {
     return text + fmt::format("  longest step       {:.2g}, shorter than the deck allows: here it limits the error, not TOL\n",
                               shortened);
   for (const AccuracyRung& rung : accuracy_rungs)
-    if (falls && rung.target != target)
+    if (falls && vibration == 0 && rung.target != target)
       text += fmt::format("  ACCURACY {:<10}error about {:.1g}, about {:.2g} s\n", rung.name, error_at(tolerance_of(rung)),
                           seconds_at(tolerance_of(rung)));
   return text;

@@ -18,6 +18,7 @@ struct ErrorEstimate {
   double tolerance = 0, companion_tolerance = 0;  ///< TOL of the run and of its companion
   double seconds = 0, companion_seconds = 0;
   double earlier_seconds = 0;  ///< of all runs before the companion
+  double vibration = 0;        ///< period (time) of a vibration that steps have lost, if `error` is what is missing of it; else 0
   double ratio_of_steps = 1;   ///< number of steps of the run over that of its companion
   double order = 1;            ///< power of TOL to which errors are proportional, where steps follow TOL
   double order_of_steps = 1;   ///< power of the step length to which errors are proportional
@@ -29,11 +30,17 @@ struct ErrorEstimate {
 
   /// Difference of the two runs, in the same measure as `error`.
   double difference() const { return error / share; }
-  /// Compares with the differences of earlier pairs of runs with larger TOL, the first one first: sets `falls`.
+  /// Compares with the differences of earlier pairs of runs with larger TOL, the first one first: sets `falls`. In chaos they
+  /// are about the same; where runs begin to resolve a vibration they grow before they fall.
   void follow(const std::vector<double>& differences);
+  /// Takes an error for this one that the difference of the two runs does not show, if it is larger: `error` of `where`, by the
+  /// loss of a vibration with this period. What comes of the difference alone is to be asked for before.
+  void include_lost(double lost, const std::string& where, double period);
   /// Call if all steps of the run have this length, the longest allowed, and those of the companion twice that: motions that are
   /// faster are not seen.
   void steps_reach(double longest_step);
+  /// Length of steps that follow the vibration that is lost.
+  double follows_vibration() const;
   /// Length of steps that is expected to give half of an error `target`. `differences`: as for follow().
   double longest_for(double target, const std::vector<double>& differences) const;
   /// Error and processor time that another tolerance is expected to have.

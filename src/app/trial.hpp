@@ -19,6 +19,7 @@ struct Trial {
   std::string sharper_failed = {};             ///< how a run with a sharper tolerance than this one failed
   std::optional<SolverOptions> settled = {};   ///< with the ACCURACY setting's own TOL, if `options` start with a looser one
   bool keeps_companion = false;                ///< reuse the companion of the previous run
+  long first_steps = 0;                        ///< of the first run with an estimate; 0: none yet
   std::vector<double> differences = {};        ///< of earlier runs from their companions (ErrorEstimate::difference())
 };
 

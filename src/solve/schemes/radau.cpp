@@ -81,6 +81,7 @@ Radau::Radau(SolverContext& context)
     *changes_.emplace_back().out() = context.assembler.new_vector();
   }
   for (const Model::Part& part : context.model.parts) has_friction_ = has_friction_ || part.element->layout().has_friction();
+  if (error_.wanted() && context.options.target > 0) lost_.emplace(collocation_, 6 * context.model.nodes.size());
   *right_.out() = context.assembler.new_vector();
   *solution_.out() = context.assembler.new_vector();
   const std::vector<double> slots(context.motion.size(), 0.0);
@@ -445,6 +446,7 @@ Outcome Radau::attempt(const Configuration& from, double h, Configuration& to) {
 double Radau::local_error(const Configuration& from, double h, const Configuration& to, bool coupled) {
   const auto v0 = context_.motion.velocities(from), a0 = context_.motion.accelerations(from);
   error_.take(v0);
+  if (lost_) lost_->look(v0, a0, now_.y, now_.v, now_.a);
   const double weight = accelerations_.points() == 1 ? weight_after_event : weight_of_speeds;
   std::vector<double> places(v0.size()), speeds(v0.size());
   for (std::size_t slot = 0; slot < v0.size(); ++slot) {
@@ -535,6 +537,7 @@ bool Radau::balance_near(Configuration& c, int most) {
 }
 
 void Radau::accept() {
+  if (lost_) lost_->take(tried_.judged.step, accelerations_.points() == 1, tried_.a, inertia_of(lost_->differences()));
   accelerations_.add(tried_.time, tried_.a);
   multipliers_.add(tried_.time, tried_.multipliers);
   open_ = tried_.open;

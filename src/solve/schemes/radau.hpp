@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+
 #include "math/extrapolation.hpp"
 #include "solve/algebra/references.hpp"
 #include "solve/schemes/coupled_stages.hpp"
 #include "solve/schemes/dynamics.hpp"
 #include "solve/schemes/kept_matrices.hpp"
+#include "solve/schemes/lost_vibrations.hpp"
 #include "solve/schemes/stage_solver.hpp"
 
 namespace engrane::solve {
@@ -24,6 +27,7 @@ class Radau final : public Dynamics {
   void enter(const std::vector<int>& sides) override;
   int order_of_error() const override { return static_cast<int>(collocation_.stages()); }
   const References& references() const override { return references_; }
+  const LostVibrations* lost_vibrations() const override { return lost_ ? &*lost_ : nullptr; }
   void save(Snapshot& snapshot) const override;
   void load(const Snapshot& snapshot) override;
   /// Velocities of generalised-α oscillate about the values that satisfy the constraints, long after a jump of a drive's speed.
@@ -118,6 +122,8 @@ class Radau final : public Dynamics {
   bool leave_admissible(std::vector<double>& rates);
   /// Finds the change of the motion (by slot) and of multipliers (by equation) for right_side_; false if singular.
   bool solve_balance(std::vector<double>& change, std::span<const double>& found);
+  /// Masses times these accelerations of nodes, by motion slot; empty if there are no matrices.
+  std::vector<double> inertia_of(std::span<const double> accelerations);
   bool has_equation(std::size_t slot) const { return context_.numbering.equation(static_cast<int>(slot)) >= 0; }
 
   Extrapolation accelerations_, multipliers_;  ///< at the ends of steps since the last event
@@ -134,6 +140,7 @@ class Radau final : public Dynamics {
   std::vector<std::vector<MotionSlots::Prescribed>> prescribed_;
   std::vector<Owned<Vec>> residuals_, changes_;
   KeptMatrices kept_;
+  std::optional<LostVibrations> lost_;             ///< if an estimate of the error is wanted
   std::unique_ptr<CoupledStages> coupled_stages_;  ///< made by the first step that needs it
   Coupled coupled_;
   double kept_step_ = 0;      ///< for which the systems may be reused; 0: none

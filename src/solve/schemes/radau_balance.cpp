@@ -57,6 +57,20 @@ bool Radau::leave_admissible(std::vector<double>& rates) {
   return true;
 }
 
+std::vector<double> Radau::inertia_of(std::span<const double> accelerations) {
+  const StageMatrices* const matrices = kept_.current();
+  std::vector<double> forces;
+  if (!matrices) return forces;
+  forces.assign(context_.motion.size(), 0.0);
+  std::copy(accelerations.begin(), accelerations.end(), forces.begin());
+  right_side_.assign(static_cast<std::size_t>(context_.numbering.equations()), 0.0);
+  context_.motion.gather(forces, right_side_);
+  context_.assembler.spread(right_side_, right_);
+  check_petsc(MatMult(matrices->mass, right_, solution_));
+  context_.motion.scatter(context_.assembler.gather(solution_), forces);
+  return forces;
+}
+
 bool Radau::worth(std::span<const double> change, std::span<const double> rates) const {
   const double extent = context_.model.extent();
   double changed = 0, most = 0;

@@ -10,6 +10,8 @@
 
 namespace engrane::solve {
 
+class LostVibrations;
+
 /// Result of an attempted step.
 struct Outcome {
   NewtonReport newton;
@@ -92,6 +94,9 @@ class Scheme {
 
   /// Loads and lengths that the residuals of its steps are compared with.
   virtual const References& references() const { return context_.newton.references(); }
+
+  /// What its steps since the start or the restart have lost; nullptr if that is not looked for.
+  virtual const LostVibrations* lost_vibrations() const { return nullptr; }
 
   /// The scheme's memory of accepted steps, for a restart.
   virtual void save(Snapshot&) const {}
