@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <set>
@@ -185,7 +186,8 @@ void Companion::choose_columns(const observe::Observer& observer, const Model& m
     columns_.push_back({static_cast<std::size_t>(at), static_cast<std::size_t>(at), owner, channel.name, channel.dimension, 0,
                         std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()});
     columns_.back().part = part;
-    if (part >= 0) columns_.back().nodes = model.parts[static_cast<std::size_t>(part)].nodes;
+    if (part >= 0 && channel.dimension == dimension::force)
+      columns_.back().nodes = model.parts[static_cast<std::size_t>(part)].nodes;
     columns_.back().node = node;
   };
   int at = 0;
@@ -390,8 +392,13 @@ LostChannel Companion::lost_acceleration(const Column& column, const LostVibrati
 LostChannel Companion::lost_force(const Column& column, const LostVibrations& lost) const {
   if (column.dimension != dimension::force) return {};  // moments have the dimension of energies
   // which of the forces of an element it is cannot be told: the one that changes most
-  for (const Column& other : columns_)
-    if (other.part == column.part && other.dimension == column.dimension && other.range() > column.range()) return {};
+  const auto begin = columns_.begin() + (&column - columns_.data());
+  const auto elsewhere = [&](const Column& other) { return other.part != column.part; };
+  const auto larger = [&](const Column& other) { return other.dimension == column.dimension && other.range() > column.range(); };
+  // the channels of an element follow one another
+  const auto before = std::make_reverse_iterator(begin);
+  if (std::any_of(before, std::find_if(before, columns_.rend(), elsewhere), larger)) return {};
+  if (std::any_of(begin, std::find_if(begin, columns_.end(), elsewhere), larger)) return {};
   LostChannel most;
   for (const int node : column.nodes) {
     if (node == 0) continue;

@@ -84,7 +84,7 @@ class Companion {
     Dimension dimension;
     double squares = 0, least = 0, largest = 0;
     double before = 0;            ///< difference between the companion and its own companion; 0: it had none
-    std::vector<int> nodes = {};  ///< of the element: indices into Model::nodes
+    std::vector<int> nodes = {};  ///< of the element, for a force: indices into Model::nodes
     int part = -1;                ///< element (index into Model::parts); −1: not a channel of an element
     int node = -1;                ///< index into Model::nodes; −1: not a channel of a node
     int component = -1;           ///< 0 to 2, of a vector of a node whose three columns are adjacent; −1: not one of these
