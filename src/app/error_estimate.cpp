@@ -18,7 +18,7 @@ constexpr double same = 2;
 /// A step of this over ω loses 1.6e-5 of a vibration: a hundredth in 70 periods.
 constexpr double followed = 0.7;
 /// What is lost falls with a power of TOL between 0, while all of it is lost, and 1.75: a step loses (ωh)⁶, and TOL allows
-/// (ωh)⁴ of its velocity. This one takes one or two repeats.
+/// (ωh)⁴ of its velocity. This one serves where steps that lose some are no longer than those that follow it.
 constexpr double order_of_lost = 1.5;
 
 }  // namespace

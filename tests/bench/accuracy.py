@@ -32,6 +32,7 @@ from pathlib import Path
 import numpy as np
 from schemes import BEVEL
 from schemes import MODELS as OTHERS
+from work_precision import draw
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "post"), str(ROOT / "tests" / "verify")]
@@ -481,6 +482,7 @@ def slopes(bench: Bench) -> list[str]:
 LADDER = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
 KEPT, RADAU = "generalised-α, kept factors, fixed steps", "Radau IIA, fixed steps"
 CONTROLLED, DIAL, DECK = "Radau IIA, TOL", "ACCURACY, with its estimate", "the deck as it is"
+MARKS = {KEPT: "o-", RADAU: "s-", CONTROLLED: "^-", DIAL: "D--", DECK: "k*"}
 
 
 def points(bench: Bench) -> dict[str, list[tuple[str, float, float]]]:
@@ -507,46 +509,6 @@ def points(bench: Bench) -> dict[str, list[tuple[str, float, float]]]:
     return found
 
 
-def draw(drawn: dict[str, dict[str, list[tuple[str, float, float]]]], path: Path) -> None:
-    """Error over processor time of each model, three in a row."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-    from matplotlib.patheffects import withStroke
-    from matplotlib.ticker import LogLocator, NullLocator
-
-    marks = {KEPT: "o-", RADAU: "s-", CONTROLLED: "^-", DIAL: "D--", DECK: "k*"}
-    columns = min(3, len(drawn))
-    rows = -(-len(drawn) // columns)
-    figure, axes = plt.subplots(rows, columns, sharey=True, layout="constrained", squeeze=False)
-    figure.set_size_inches(4.4 * columns, 4 * rows + 0.4)
-    for axis, (title, lines) in zip(axes.flat, drawn.items(), strict=False):
-        for label, found in lines.items():
-            _, seconds, errors = zip(*found, strict=True)
-            size = {DIAL: 7, DECK: 11}.get(label, 4)
-            axis.loglog(seconds, errors, marks[label], label=label, markersize=size)
-        slow = lines[DIAL][0][1] > lines[DIAL][1][1]  # FAST, which is then right of NORMAL
-        for name, *place in lines[DIAL]:
-            left = name == "FINE" or name == ("NORMAL" if slow else "FAST")
-            words = {"textcoords": "offset points", "ha": "right" if left else "left", "fontsize": 8}
-            text = axis.annotate(name, place, (-7 if left else 7, 3), zorder=9, **words)
-            text.set_path_effects([withStroke(linewidth=2.5, foreground="white")])
-        axis.set_title(title)
-        axis.margins(x=0.1)
-        axis.xaxis.set_major_locator(LogLocator(subs=(1, 3)))
-        axis.xaxis.set_minor_locator(NullLocator())
-        axis.xaxis.set_major_formatter("{x:g}")
-        axis.grid(True, which="major", alpha=0.3)
-    for axis in axes.flat[len(drawn) :]:
-        axis.remove()
-    figure.supxlabel("processor time (s)")
-    figure.supylabel("error over range")
-    handles, labels = axes[0][0].get_legend_handles_labels()
-    figure.legend(handles, labels, ncols=2 * columns - 1, loc="outside upper center")
-    figure.savefig(path, dpi=100)
-
-
 def main() -> None:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
@@ -565,7 +527,8 @@ def main() -> None:
         if a.picture:
             drawn = [known[name] for name in a.models or known]
             benches = (Bench(a.binary.resolve(), Path(folder), model, a.runs) for model in drawn)
-            draw({bench.model.title: points(bench) for bench in benches}, a.picture)
+            lines = {bench.model.title: points(bench) for bench in benches}
+            draw(lines, MARKS, DIAL, a.picture, left=("FINE",), one_scale=True)
             return
         for name in a.models or known:
             bench = Bench(a.binary.resolve(), Path(folder), known[name], a.runs)

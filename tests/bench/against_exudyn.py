@@ -38,6 +38,7 @@ from pathlib import Path
 
 import numpy as np
 from paired_models import ENVIRONMENT, MODELS, RHO, ROOT, Model, deck
+from work_precision import Lines, draw
 
 sys.path[:0] = [str(ROOT / "post")]
 from engrane_post import Results  # noqa: E402
@@ -48,6 +49,7 @@ KEPT, FULL = "Exudyn, modified Newton", "Exudyn, full Newton"
 KLU, MUMPS = "CHUNG KEPT, KLU", "CHUNG KEPT, MUMPS"
 RADAU, CONTROLLED = "RADAU TOL", "CHUNG TOL"
 DIAL = "the dial, with its estimate"
+MARKS = {KEPT: "o-", FULL: "o:", KLU: "s-", MUMPS: "s:", RADAU: "^-", DIAL: "D--"}
 TARGETS = [d * 10.0**-p for p in range(1, 9) for d in (1, 0.3)]
 
 
@@ -212,51 +214,16 @@ def curves(name: str, own: Own, more: bool, dial: bool, newton: float | None) ->
     return found
 
 
-def draw(drawn: dict[str, dict[str, Curve]], path: Path) -> None:
-    """Error over processor time of each model, three in a row."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-    from matplotlib.patheffects import withStroke
-    from matplotlib.ticker import LogLocator, NullLocator
-
-    marks = {KEPT: "o-", FULL: "o:", KLU: "s-", MUMPS: "s:", RADAU: "^-", DIAL: "D--"}
-    columns = min(3, len(drawn))
-    rows = -(-len(drawn) // columns)
-    size = (4.4 * columns, 3.9 * rows + 0.6)
-    figure, axes = plt.subplots(rows, columns, figsize=size, layout="constrained", squeeze=False)
-    for axis, (title, found) in zip(axes.flat, drawn.items(), strict=False):
-        for label, mark in marks.items():
-            curve = found[label]
-            points = [
-                (s, e, name)
-                for s, e, (name, _) in zip(curve.least, curve.errors, curve.runs, strict=True)
-                if np.isfinite(e)
-            ]
-            seconds, errors, names = zip(*points, strict=True)
-            axis.loglog(seconds, errors, mark, label=label, markersize=7 if label == DIAL else 4)
-            if label != DIAL:
-                continue
-            for i, (name, *place) in enumerate(zip(names, seconds, errors, strict=True)):
-                left = i == (0 if seconds[0] < seconds[1] else 1)
-                words = {"textcoords": "offset points", "ha": "right" if left else "left", "fontsize": 8}
-                text = axis.annotate(name, place, (-7 if left else 7, 3), zorder=9, **words)
-                text.set_path_effects([withStroke(linewidth=2.5, foreground="white")])
-        axis.set_title(title)
-        axis.margins(x=0.1)
-        axis.xaxis.set_major_locator(LogLocator(subs=(1, 3)))
-        axis.xaxis.set_major_formatter("{x:g}")
-        axis.xaxis.set_minor_locator(NullLocator())
-        axis.yaxis.set_minor_locator(NullLocator())
-        axis.grid(True, which="major", alpha=0.3)
-    for axis in axes.flat[len(drawn) :]:
-        axis.remove()
-    figure.supxlabel("processor time (s)")
-    figure.supylabel("error over range")
-    handles, labels = axes[0][0].get_legend_handles_labels()
-    figure.legend(handles, labels, ncols=2 * columns, loc="outside upper center")
-    figure.savefig(path, dpi=100)
+def points(found: dict[str, Curve]) -> Lines:
+    """What is drawn of a model: name, seconds and error of the runs of each curve that have an error."""
+    return {
+        label: [
+            (name, s, e)
+            for s, e, (name, _) in zip(curve.least, curve.errors, curve.runs, strict=True)
+            if np.isfinite(e)
+        ]
+        for label, curve in found.items()
+    }
 
 
 def ratio_rows(title: str, found: dict[str, Curve]) -> list[str]:
@@ -319,7 +286,8 @@ def main() -> None:
             print("|---|---|---:|---|---|---|---|")
             print("\n".join(ratio_rows(model.title, found)), flush=True)
     if a.picture:
-        draw(drawn, a.picture)
+        lines = {title: points(found) for title, found in drawn.items()}
+        draw(lines, MARKS, DIAL, a.picture)
 
 
 if __name__ == "__main__":
