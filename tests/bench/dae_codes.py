@@ -3,8 +3,9 @@
 beside this program.
 
     apt install r-cran-desolve
-    python -m venv /tmp/dae && /tmp/dae/bin/pip install scikit-sundae numba numpy scipy h5py
+    python -m venv /tmp/dae && /tmp/dae/bin/pip install scikit-sundae numba numpy scipy h5py matplotlib
     /tmp/dae/bin/python tests/bench/dae_codes.py build/bin/engrane [--models andrews crank] [--runs 3]
+        [--picture beside_ida.png]
 
 Both codes solve the equations of dae_mechanisms.py, in three forms: index 3,
 
@@ -37,10 +38,33 @@ import numba
 import numpy as np
 from dae_mechanisms import MECHANISMS, Mechanism, digits, error, run_engrane, with_forces
 from numba import types
+from work_precision import Lines, draw
 
 #: deSolve as Debian installs it
 RADAU5 = Path("/usr/lib/R/site-library/deSolve/libs/deSolve.so")
 FORMS = {3: "index 3", 2: "stabilised index 2", 1: "index 1"}
+DIAL = "this program, settings of the dial"
+IN_SPACE, IN_PLANE = "this program, RADAU with TOL", "this program, RADAU with TOL, PLANE AUTO"
+#: label, words of .SAM, TOL
+SETTINGS = [
+    ("this program", "", ""),
+    *((DIAL, f"ACCURACY {rung}", "") for rung in ("FAST", "NORMAL", "FINE", "REFERENCE")),
+    *(
+        (label, "SCHEME RADAU SOLVER KLU" + plane, tol)
+        for label, plane in ((IN_SPACE, ""), (IN_PLANE, " PLANE AUTO"))
+        for tol in ("1e-3", "1e-4", "1e-5", "1e-6", "1e-7")
+    ),
+]
+#: of Matplotlib, by label
+MARKS = {
+    DIAL: "kD",
+    IN_SPACE: "b-o",
+    IN_PLANE: "c-o",
+    "IDA, stabilised index 2": "r-s",
+    "IDA, index 1": "r:s",
+    "RADAU5, stabilised index 2": "g-^",
+    "RADAU5, index 1": "g:^",
+}
 
 
 class IdaPeer:
@@ -280,6 +304,31 @@ class Radau5Peer:
         return {"seconds": seconds, "values": values, "work": numbers[[15, 13, 14]].tolist()}
 
 
+def measure(binary: Path, mechanism: Mechanism, peers: list, runs: int) -> dict[tuple[str, str], list[dict]]:
+    """Runs of each code with each of its settings, in turn; times of this program without its start-up."""
+    times = np.linspace(0, mechanism.end, mechanism.instants + 1)
+    for peer in peers:
+        peer.run(1e-3, times)  # compiles
+    rows: dict[tuple[str, str], list[dict]] = {}
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        starts = [run_engrane(binary, folder, mechanism, "SOLVER KLU", "", mechanism.step) for _ in range(5)]
+        begin = min(start["seconds"] for start in starts)
+        for _ in range(runs):
+            for label, analysis, tol in SETTINGS:
+                found = run_engrane(binary, folder, mechanism, analysis, tol and f" TOL {tol}")
+                found["seconds"] -= begin
+                rows.setdefault((label, tol or analysis.removeprefix("ACCURACY ")), []).append(found)
+            for peer in peers:
+                for tolerance in (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10):
+                    row = rows.setdefault((peer.title, f"{tolerance:g}"), [])
+                    try:
+                        row.append(peer.run(tolerance, times))
+                    except RuntimeError as failure:
+                        row.append({"failure": str(failure)[:80]})
+    return rows
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
@@ -287,56 +336,35 @@ def main() -> None:
     parser.add_argument("binary", type=Path)
     parser.add_argument("--models", nargs="+", choices=MECHANISMS, default=list(MECHANISMS))
     parser.add_argument("--runs", type=int, default=3)
+    parser.add_argument("--picture", type=Path, help="PNG to draw, needs matplotlib")
     a = parser.parse_args()
-    settings = [("", "")] + [(f"ACCURACY {rung}", "") for rung in ("FAST", "NORMAL", "FINE", "REFERENCE")]
-    for plane in ("", " PLANE AUTO"):
-        settings += [
-            ("SCHEME RADAU SOLVER KLU" + plane, f" TOL {t}") for t in ("1e-3", "1e-4", "1e-5", "1e-6", "1e-7")
-        ]
+    drawn: dict[str, Lines] = {}
     for model in a.models:
         mechanism = MECHANISMS[model]()
-        times = np.linspace(0, mechanism.end, mechanism.instants + 1)
-        true = mechanism.truth(times)
+        true = mechanism.truth(np.linspace(0, mechanism.end, mechanism.instants + 1))
         peers = [IdaPeer(mechanism, index) for index in (2, 1)]
         if RADAU5.exists():
             peers += [Radau5Peer(mechanism, index) for index in (3, 2, 1)]
         else:
             print(f"without RADAU5: there is no {RADAU5} (apt install r-cran-desolve)")
-        for peer in peers:
-            peer.run(1e-3, times)  # compiles
-        rows: dict[str, list[dict]] = {}
-        with tempfile.TemporaryDirectory() as name:
-            binary, folder = a.binary.resolve(), Path(name)
-            starts = [
-                run_engrane(binary, folder, mechanism, "SOLVER KLU", "", mechanism.step) for _ in range(5)
-            ]
-            begin = min(start["seconds"] for start in starts)
-            for _ in range(a.runs):
-                for analysis, more in settings:
-                    found = run_engrane(binary, folder, mechanism, analysis, more)
-                    found["seconds"] -= begin
-                    rows.setdefault(f"this program, {analysis + more or 'as it is'}", []).append(found)
-                for peer in peers:
-                    for tolerance in (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10):
-                        title = f"{peer.title}, rtol {tolerance:g}"
-                        try:
-                            rows.setdefault(title, []).append(peer.run(tolerance, times))
-                        except RuntimeError as failure:
-                            rows.setdefault(title, []).append({"failure": str(failure)[:80]})
         print(
-            f"\n{model}\n\n| program | s | error | digits | steps | residuals | tangents |\n"
-            + "|---" * 7
+            f"\n{model}\n\n| program | setting | s | error | digits | steps | residuals | tangents |\n"
+            + "|---" * 8
             + "|"
         )
-        for title, runs in rows.items():
+        lines = drawn.setdefault(model, {})
+        for (label, setting), runs in measure(a.binary.resolve(), mechanism, peers, a.runs).items():
             if "failure" in runs[0]:
-                print(f"| {title} | failed: {runs[0]['failure']} |")
+                print(f"| {label} | {setting} | failed: {runs[0]['failure']} |")
                 continue
             seconds = min(r["seconds"] for r in runs)
             off = error(runs[0]["values"], true, mechanism)
             exact = digits(runs[0]["values"], true, mechanism)
             work = " | ".join(map(str, runs[0]["work"]))
-            print(f"| {title} | {seconds:.4f} | {off:.1e} | {exact:.2f} | {work} |")
+            print(f"| {label} | {setting} | {seconds:.4f} | {off:.1e} | {exact:.2f} | {work} |")
+            lines.setdefault(label, []).append((setting, seconds, off))
+    if a.picture:
+        draw(drawn, MARKS, DIAL, a.picture, one_scale=True)
 
 
 if __name__ == "__main__":
