@@ -43,6 +43,7 @@ from work_precision import Lines, draw
 #: deSolve as Debian installs it
 RADAU5 = Path("/usr/lib/R/site-library/deSolve/libs/deSolve.so")
 FORMS = {3: "index 3", 2: "stabilised index 2", 1: "index 1"}
+TITLES = {"andrews": "Andrews' mechanism", "crank": "slider-crank"}
 DIAL = "this program, settings of the dial"
 IN_SPACE, IN_PLANE = "this program, RADAU with TOL", "this program, RADAU with TOL, PLANE AUTO"
 #: label, words of .SAM, TOL
@@ -304,9 +305,10 @@ class Radau5Peer:
         return {"seconds": seconds, "values": values, "work": numbers[[15, 13, 14]].tolist()}
 
 
-def measure(binary: Path, mechanism: Mechanism, peers: list, runs: int) -> dict[tuple[str, str], list[dict]]:
-    """Runs of each code with each of its settings, in turn; times of this program without its start-up."""
-    times = np.linspace(0, mechanism.end, mechanism.instants + 1)
+def measure(
+    binary: Path, mechanism: Mechanism, peers: list, times: np.ndarray, runs: int
+) -> dict[tuple[str, str], list[dict]]:
+    """Runs of each code, by label and setting, in turn; seconds of this program without its start-up."""
     for peer in peers:
         peer.run(1e-3, times)  # compiles
     rows: dict[tuple[str, str], list[dict]] = {}
@@ -318,7 +320,8 @@ def measure(binary: Path, mechanism: Mechanism, peers: list, runs: int) -> dict[
             for label, analysis, tol in SETTINGS:
                 found = run_engrane(binary, folder, mechanism, analysis, tol and f" TOL {tol}")
                 found["seconds"] -= begin
-                rows.setdefault((label, tol or analysis.removeprefix("ACCURACY ")), []).append(found)
+                setting = tol or analysis.removeprefix("ACCURACY ") or "as it is"
+                rows.setdefault((label, setting), []).append(found)
             for peer in peers:
                 for tolerance in (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10):
                     row = rows.setdefault((peer.title, f"{tolerance:g}"), [])
@@ -341,7 +344,8 @@ def main() -> None:
     drawn: dict[str, Lines] = {}
     for model in a.models:
         mechanism = MECHANISMS[model]()
-        true = mechanism.truth(np.linspace(0, mechanism.end, mechanism.instants + 1))
+        times = np.linspace(0, mechanism.end, mechanism.instants + 1)
+        true = mechanism.truth(times)
         peers = [IdaPeer(mechanism, index) for index in (2, 1)]
         if RADAU5.exists():
             peers += [Radau5Peer(mechanism, index) for index in (3, 2, 1)]
@@ -352,8 +356,8 @@ def main() -> None:
             + "|---" * 8
             + "|"
         )
-        lines = drawn.setdefault(model, {})
-        for (label, setting), runs in measure(a.binary.resolve(), mechanism, peers, a.runs).items():
+        lines = drawn.setdefault(TITLES[model], {})
+        for (label, setting), runs in measure(a.binary.resolve(), mechanism, peers, times, a.runs).items():
             if "failure" in runs[0]:
                 print(f"| {label} | {setting} | failed: {runs[0]['failure']} |")
                 continue
@@ -364,7 +368,11 @@ def main() -> None:
             print(f"| {label} | {setting} | {seconds:.4f} | {off:.1e} | {exact:.2f} | {work} |")
             lines.setdefault(label, []).append((setting, seconds, off))
     if a.picture:
-        draw(drawn, MARKS, DIAL, a.picture, one_scale=True)
+        # without RADAU5 its lines are missing
+        marks = {
+            label: mark for label, mark in MARKS.items() if all(label in lines for lines in drawn.values())
+        }
+        draw(drawn, marks, DIAL, a.picture, one_scale=True)
 
 
 if __name__ == "__main__":
