@@ -71,7 +71,7 @@ void JudgedFactors::solve_and_refine(Vec right, Vec solution) {
   factors_->solve(right, solution);
   if (proven_) return;
   error_ = backward_error_.of(right, solution);
-  proven_ = error_ <= enough_;
+  proven_ = error_ <= enough_ && largest(solution) > 0;  // zeros prove nothing
   if (proven_ || !std::isfinite(error_)) return;
   factors_->solve(backward_error_.residual(), correction_);
   if (!(largest(correction_) <= most_refinement * largest(solution))) return;

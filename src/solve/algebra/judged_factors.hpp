@@ -14,7 +14,8 @@ namespace engrane::solve {
 /// Factors of one matrix, with a check of the solutions.
 ///
 /// The first solution with each factorisation is checked by its backward error (BackwardError), refined if that helps, and
-/// repeated with better factors if it does not. Later ones are checked too, unless the first was as good as it can be.
+/// repeated with better factors if it does not. Later ones are checked too, unless one before was as good as it can be and
+/// was not zero.
 class JudgedFactors {
  public:
   /// `package`: as for make_factors(); `kinds`: kind of each row (BackwardError).
