@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Reads the mesh of an Abaqus input file: *NODE, *ELEMENT, *NSET, *ELSET, *SURFACE, *INCLUDE. Everything else
-is passed over. Faces of a surface become cells of their own, as other programs write them."""
+is passed over. Faces of a surface become cells of their own, as other programs write them, and a surface of
+nodes a group of nodes."""
 
 from __future__ import annotations
 
@@ -65,6 +66,7 @@ class _Found:
     node_sets: dict[str, list[np.ndarray]] = field(default_factory=dict)
     cell_sets: dict[str, list[np.ndarray]] = field(default_factory=dict)
     surfaces: dict[str, list[tuple[str, str]]] = field(default_factory=dict)
+    node_surfaces: dict[str, list[np.ndarray]] = field(default_factory=dict)
     spelling: dict[str, str] = field(default_factory=dict)
 
 
@@ -101,13 +103,20 @@ def read(path: str | Path) -> RawMesh:
     }
     for name, faces in found.surfaces.items():
         _add_surface(name, faces, found, blocks, cell_sets)
+    point_sets = {
+        found.spelling[name]: rows(np.concatenate(members), f"*NSET {found.spelling[name]}")
+        for name, members in found.node_sets.items()
+    }
+    for name, members in found.node_surfaces.items():
+        spelled = found.spelling[name]
+        own = np.unique(rows(np.concatenate(members), f"*SURFACE {spelled}"))
+        if not np.array_equal(own, np.unique(point_sets.get(spelled, own))):
+            raise UserError(f"{path}: *SURFACE {spelled} has other nodes than *NSET {spelled}; rename one.")
+        point_sets[spelled] = own
     return RawMesh(
         points,
         [RawCells(kind, nodes) for kind, nodes in blocks],
-        point_sets={
-            found.spelling[name]: rows(np.concatenate(members), f"*NSET {found.spelling[name]}")
-            for name, members in found.node_sets.items()
-        },
+        point_sets=point_sets,
         cell_sets=cell_sets,
     )
 
@@ -224,6 +233,15 @@ def _take(section: _Section, found: _Found, path: Path) -> None:
         found.surfaces.setdefault(p["NAME"].upper(), []).extend(
             (r[0].upper(), r[1].upper()) for r in rows if len(r) > 1
         )
+    elif section.keyword == "SURFACE" and "NAME" in p and p["TYPE"].upper() == "NODE":
+        # nodes or sets of nodes, each with an area at most
+        firsts = [line.partition(",")[0].strip().strip('"') for line in section.lines]
+        found.spelling.setdefault(p["NAME"].upper(), p["NAME"])
+        for word in firsts:
+            if not word.isdigit() and word.upper() not in found.node_sets:
+                raise UserError(f"{path}: *SURFACE names {word}, which is no set of nodes before it.")
+            members = [np.array([int(word)])] if word.isdigit() else found.node_sets[word.upper()]
+            found.node_surfaces.setdefault(p["NAME"].upper(), []).extend(members)
 
 
 def _nodes(lines: list[str]) -> tuple[np.ndarray, np.ndarray]:

@@ -56,6 +56,7 @@ class CellMesh:
     blocks: list[Block]
     groups: list[Group] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
+    membranes: bool = False
 
     @property
     def dimension(self) -> int:
@@ -75,8 +76,11 @@ def count(number: int, words: str) -> str:
     return f"{number} {words}"
 
 
-def of_file(mesh: FileMesh, scale: float = 1.0, merge: float | None = None) -> CellMesh:
-    """All that a deck can say of the mesh. `merge`: nodes nearer than this part of its size are one."""
+def of_file(
+    mesh: FileMesh, scale: float = 1.0, merge: float | None = None, membranes: bool = False
+) -> CellMesh:
+    """All that a deck can say of the mesh. `merge`: nodes nearer than this part of its size are one.
+    `membranes`: its triangles and quadrilaterals, wherever they lie, are membranes."""
     path, notes = mesh.path, []
     points = mesh.points * scale
     one = np.arange(len(points))
@@ -88,6 +92,11 @@ def of_file(mesh: FileMesh, scale: float = 1.0, merge: float | None = None) -> C
     dimension = max(
         (dimension_of(name) for name, nodes in blocks if len(nodes) and name in BY_NAME), default=0
     )
+    if membranes and dimension != 2:
+        raise UserError(
+            f"{path} has {'solids' if dimension == 3 else 'no surface'}: --as membranes is for a surface "
+            "without solids."
+        )
     if dimension == 0:
         every: dict[str, int] = {}
         for name, nodes in blocks:
@@ -98,7 +107,7 @@ def of_file(mesh: FileMesh, scale: float = 1.0, merge: float | None = None) -> C
             "a plane, tetrahedra, wedges and hexahedra, of first or second order."
             + _hint([n for n, _ in blocks])
         )
-    out = CellMesh(points, [], [], notes)
+    out = CellMesh(points, [], [], notes, membranes)
     number_of: list[np.ndarray] = []  # for each block of the file the number of each cell in the deck, or 0
     number, lost = 1, {}
     flat = folded = turned = main = 0
@@ -112,7 +121,7 @@ def of_file(mesh: FileMesh, scale: float = 1.0, merge: float | None = None) -> C
                 lost[name] = lost.get(name, 0) + len(nodes)
             continue
         main += len(nodes)
-        shape = shapes(points, kind, nodes)
+        shape = shapes(points, kind, nodes, membranes)
         good = shape != DEGENERATE
         flat += int(np.sum(~good))
         inside_out = shape == INVERTED
@@ -140,7 +149,7 @@ def of_file(mesh: FileMesh, scale: float = 1.0, merge: float | None = None) -> C
         notes.append(
             f"cells that fold over themselves: {folded}, the first is cell {first_folded}; mend the mesh."
         )
-    if dimension == 2:
+    if dimension == 2 and not membranes:
         _stand_in_plane(out, path)
     _groups(mesh, out, blocks, one, number_of)
     _drop_unused(out)
@@ -162,9 +171,10 @@ def _hint(names: list[str]) -> str:
 GOOD, INVERTED, FOLDED, DEGENERATE = 0, 1, 2, 3
 
 
-def shapes(points: np.ndarray, kind: Kind, nodes: np.ndarray) -> np.ndarray:
+def shapes(points: np.ndarray, kind: Kind, nodes: np.ndarray, in_space: bool = False) -> np.ndarray:
     """Of each cell whether it is good, inside out, folded over itself, or without content: by the signs of
-    the Jacobian at its corners, with straight sides."""
+    the Jacobian at its corners, with straight sides. `in_space`: of plane cells anywhere, seen from the side
+    where they run anticlockwise."""
     out = np.zeros(len(nodes), np.int8)
     for start in range(0, len(nodes), CHUNK):
         part = nodes[start : start + CHUNK]
@@ -172,6 +182,8 @@ def shapes(points: np.ndarray, kind: Kind, nodes: np.ndarray) -> np.ndarray:
         sides = np.linalg.norm(x - np.roll(x, 1, axis=1), axis=2).max(axis=1)
         if kind.dimension == 3:  # across the cell
             sides = np.maximum(sides, np.linalg.norm(x - x[:, :1], axis=2).max(axis=1))
+        if in_space:
+            x = _in_own_plane(x)
         jacobian = np.stack([_jacobian(x, kind, c) for c in range(kind.corners)], axis=1)
         size = np.maximum(sides, np.finfo(float).tiny)[:, None] ** kind.dimension
         relative = jacobian / size
@@ -182,6 +194,15 @@ def shapes(points: np.ndarray, kind: Kind, nodes: np.ndarray) -> np.ndarray:
         found[~(back | ahead) | twice] = DEGENERATE
         out[start : start + CHUNK] = found
     return out
+
+
+def _in_own_plane(x: np.ndarray) -> np.ndarray:
+    """Corners of cells (n x k x 3) along axes of their own: the last is the normal."""
+    along = x[:, 2] - x[:, 0]
+    normal = np.cross(along, x[:, -1] - x[:, 1]) if x.shape[1] == 4 else np.cross(x[:, 1] - x[:, 0], along)
+    axes = np.stack([along, np.cross(normal, along), normal], axis=1)
+    size = np.linalg.norm(axes, axis=2, keepdims=True)
+    return np.einsum("nij,nkj->nki", axes / np.where(size > 0, size, 1), x)
 
 
 def _jacobian(x: np.ndarray, kind: Kind, corner: int) -> np.ndarray:
@@ -208,7 +229,7 @@ def _stand_in_plane(mesh: CellMesh, path: object) -> None:
     if np.ptp(x[:, 2]) > 1e-9 * np.ptp(x, axis=0).max():
         raise UserError(
             f"{path} is a surface in space; plane cells need all nodes at the same z, and a deck takes "
-            "no shells."
+            "no shells. --as membranes brings it as a skin that does not bend."
         )
     mesh.points[used, 2] = x[0, 2]
 

@@ -149,7 +149,7 @@ KINDS = (
 )
 BY_NAME = {kind.name: kind for kind in KINDS}
 #: nodes of what else a file may hold
-OTHERS = {"vertex": 1, "line": 2, "line3": 3, "pyramid": 5, "pyramid13": 13}
+OTHERS = {"vertex": 1, "line": 2, "line3": 3, "quad9": 9, "pyramid": 5, "pyramid13": 13}
 BY_XDMF = {kind.xdmf: kind for kind in KINDS}
 
 #: XDMF's other codes with a fixed number of nodes: what a reader must be able to step over

@@ -17,7 +17,7 @@ def resolve(wanted: str, names: list[str], where: str = "the result") -> list[st
     bare run channel such as `KINETIC_ENERGY`, or a pattern with `*`. Raises UserError with the nearest names
     when there is none."""
     key = normalise(wanted)
-    by_key = {n.upper(): n for n in names}
+    by_key = {normalise(n): n for n in names}
     if key in by_key:
         return [by_key[key]]
     if any(c in key for c in "*?["):

@@ -109,7 +109,13 @@ def template(mesh: CellMesh) -> str:
         ".MAT",
         ' I 1 NOM "steel" BEHA "ELASTIC" YT 2.1E+11 NT 0.3 M 7850.',
     ]
-    if not solid:
+    if mesh.membranes:
+        lines += [
+            ".HYP MEMBRANE                ! TENSION and WRINKLING follow",
+            ".PHP",
+            *(f' GROUP "{name}" THICK VAL 0.001' for name in cells or ["name of a group of cells"]),
+        ]
+    elif not solid:
         lines += [
             ".HYP MEMB BIDIM              ! plane stress; DEFO PLAN plane strain, AXIS round the y axis",
             ".PHP",
@@ -118,7 +124,7 @@ def template(mesh: CellMesh) -> str:
     lines += [".AEL"]
     lines += [f' GROUP "{name}" MAT 1' for name in cells] or [f" {of_cells} MAT 1"]
     lines += [".CLM"]
-    held = "1 2 3" if solid else "1 2"
+    held = "1 2 3" if solid or mesh.membranes else "1 2"
     if nodes:
         lines += [f' GROUP "{nodes[0]}" FIX C {held}']
         lines += [f' GROUP "{name}" CHA C 1 V 100.' for name in nodes[1:2]]

@@ -10,7 +10,7 @@ import numpy as np
 
 from . import coordinates, linkage, shapes
 from .mesh import Mesh, Step
-from .results import Element, Frame
+from .results import Element, Frame, Results
 from .scene import Scene
 
 # The numbers of the array `kind`; docs/post.md lists them.
@@ -38,6 +38,31 @@ class ForcePoint:
     moment: np.ndarray
 
 
+@dataclass
+class BetweenSamples:
+    """Where frames lie: between which samples of the histories (rows), and what part of the way."""
+
+    before: np.ndarray
+    after: np.ndarray
+    part: np.ndarray
+
+    @classmethod
+    def at(cls, times: np.ndarray, wanted: np.ndarray) -> BetweenSamples:
+        """Fields may be kept at other instants than histories, but none outside them."""
+        after = np.minimum(np.searchsorted(times, wanted), len(times) - 1)
+        before = np.maximum(after - 1, 0)
+        gap = times[after] - times[before]
+        part = np.where(gap > 0, (wanted - times[before]) / np.where(gap > 0, gap, 1), 1)
+        return cls(before, after, np.clip(part, 0, 1))
+
+    def values(self, result: Results, table: str) -> np.ndarray:
+        """The histories of a table there, on straight lines: what acts may have corners between samples."""
+        first, last = result.samples(table, self.before), result.samples(table, self.after)
+        part = self.part[:, None]
+        between = np.where(part > 0, first + part * (last - first), first)
+        return np.where(part < 1, between, last)  # no value at one of the samples does not spoil the other
+
+
 class Forces:
     """All points of a result at which forces are known, for these frames of it."""
 
@@ -49,11 +74,7 @@ class Forces:
         self._open = {tuple(c.name.split("/")[:2]) for c in result.channels.values() if not c.unique}
         times = result.times()
         if len(times):
-            # frames are written at samples; the nearest allows for rounding
-            wanted = np.array([f.time for f in frames])
-            after = np.minimum(np.searchsorted(times, wanted), len(times) - 1)
-            before = np.maximum(after - 1, 0)
-            self._rows = np.where(wanted - times[before] < np.abs(times[after] - wanted), before, after)
+            self._between_samples = BetweenSamples.at(times, np.array([f.time for f in frames], float))
             self._tables: dict[str, np.ndarray] = {}
             self._owners = {e.id: e for e in result.elements}
             for element in result.elements:
@@ -330,5 +351,5 @@ class Forces:
         if channel is None:
             return None
         if channel.table not in self._tables:
-            self._tables[channel.table] = self.scene.result.samples(channel.table, self._rows)
+            self._tables[channel.table] = self._between_samples.values(self.scene.result, channel.table)
         return np.nan_to_num(self._tables[channel.table][:, channel.column])

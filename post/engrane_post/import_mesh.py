@@ -17,6 +17,7 @@ EXAMPLES = """  engrane import wheel.msh                       wheel.dat: nodes,
   engrane import wheel.inp --scale 0.001         drawn in millimetres, wanted in metres
   engrane import wheel.msh --binary              wheel.mesh.h5, and wheel.dat, which names it
   engrane import wheel.msh -o wheel.mesh.h5      the mesh alone: a deck that names it stays as it is
+  engrane import sail.msh --as membranes         a surface in space as a skin that does not bend
   engrane import parts.unv --merge 1e-6          nodes at one place become one"""
 
 
@@ -55,6 +56,12 @@ def add(commands: argparse._SubParsersAction) -> None:
         metavar="tol",
         help="nodes nearer to each other than this part of the mesh's size become one, such as 1e-6",
     )
+    p.add_argument(
+        "--as",
+        dest="formulation",
+        choices=("membranes",),
+        help="what triangles and quadrilaterals without solids become, instead of plane cells",
+    )
     p.add_argument("--force", action="store_true", help="write over a file that exists")
     p.set_defaults(run=run)
 
@@ -66,7 +73,7 @@ def run(args: argparse.Namespace) -> None:
     if args.merge is not None and not 0 < args.merge < 1:
         raise UserError("--merge must lie between 0 and 1; 1e-6 is a millionth of the mesh's size.")
     deck, binary = outputs(args)
-    mesh = cell_mesh.of_file(mesh_files.read(args.mesh), args.scale, args.merge)
+    mesh = cell_mesh.of_file(mesh_files.read(args.mesh), args.scale, args.merge, bool(args.formulation))
     for note in mesh.notes:
         print(f"engrane import: warning: {args.mesh}: {note}", file=sys.stderr)
     found = deck_mesh.summary(mesh)

@@ -4,11 +4,15 @@
 from __future__ import annotations
 
 import logging
+import os
+import re
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from dataclasses import dataclass, field
 from importlib import import_module
 from io import StringIO
+from multiprocessing import get_context
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -79,7 +83,7 @@ def open_mesh(path: str | Path) -> Any:
             return import_module(f".{OWN[suffix]}", __package__).read(path)
         # its guess whether an STL is binary may overflow; it writes empty lines, and what it could not read
         with np.errstate(over="ignore"), redirect_stdout(StringIO()), redirect_stderr(StringIO()):
-            return _read_vtk(path, meshio) if suffix == ".vtk" else meshio.read(path)
+            return _read_vtk(path, meshio) if suffix in VTK else meshio.read(path)
     except UserError:
         raise
     except (Exception, SystemExit) as error:  # meshio ends the program on a format that it does not know
@@ -92,19 +96,79 @@ def open_mesh(path: str | Path) -> Any:
 
 
 def _read_vtk(path: str | Path, meshio: Any) -> Any:
-    """A legacy VTK file by meshio, or by VTK itself, which writes kinds of it that meshio does not know."""
+    """A file of VTK by meshio, or by VTK itself, which writes kinds of files and cells that meshio does not
+    know."""
     try:
-        return meshio.read(path)
+        mesh, left_out = _read_all(path, meshio)
+        if not left_out:
+            return mesh
     except (Exception, SystemExit):
         with open(path, "rb") as file:
-            if not file.read(64).lower().startswith(b"# vtk datafile"):
-                raise
+            head = file.read(64).lower().lstrip()
+        if not head.startswith((b"# vtk datafile", b"<?xml", b"<vtkfile")):
+            raise
+    with TemporaryDirectory() as folder:
+        copy = Path(folder) / "mesh.vtu"
+        # VTK may crash on a damaged file, and takes others for whole ones
+        child = get_context("spawn").Process(target=_copy_by_vtk, args=(str(path), str(copy)))
+        child.start()
+        child.join()
+        if child.exitcode != 0:
+            raise UserError(
+                f"{path} is no mesh that can be read: it is damaged, such as cut short, or has what is not "
+                "known here."
+            )
+        mesh, left_out = _read_all(copy, meshio)
+    if left_out:
         from .graphics import pv
 
-        with TemporaryDirectory() as folder, _silence():
-            copy = Path(folder) / "mesh.vtu"
-            pv.read(path).cast_to_unstructured_grid().save(copy)
-            return meshio.read(copy)
+        names = ", ".join(pv.CellType(n).name if n in iter(pv.CellType) else str(n) for n in left_out)
+        raise UserError(f"{path} has cells of VTK's types {names}, which are not known here.")
+    return mesh
+
+
+def _copy_by_vtk(path: str, copy: str) -> None:
+    """Writes what VTK reads of a file as one that meshio knows. Runs in a process of its own, whose status
+    tells whether VTK had no complaint."""
+    from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
+
+    from .graphics import pv
+
+    warnings.simplefilter("ignore")
+
+    said = vtkStringOutputWindow()
+    vtkOutputWindow.SetInstance(said)
+    try:
+        with _silence():
+            _order_boxes(pv.read(path).cast_to_unstructured_grid()).save(copy)
+    except Exception:
+        os._exit(1)
+    os._exit(1 if "rror" in said.GetOutput() else 0)
+
+
+def _read_all(path: str | Path, meshio: Any) -> tuple[Any, list[int]]:
+    """The mesh, and the types of VTK whose cells meshio has left out."""
+    said = StringIO()
+    with redirect_stderr(said):
+        mesh = meshio.read(path)
+    return mesh, sorted({int(n) for n in re.findall(r"cannot\s+handle\s+\(type\s+(\d+)\)", said.getvalue())})
+
+
+def _order_boxes(grid: Any) -> Any:
+    """With quadrilaterals and hexahedra for pixels and voxels, whose nodes run in rows instead of around."""
+    from .graphics import offsets_of, pv
+
+    nodes, types, offsets = grid.cell_connectivity.copy(), grid.celltypes.copy(), offsets_of(grid)
+    for box, other, order in ((8, 9, [0, 1, 3, 2]), (11, 12, [0, 1, 3, 2, 4, 5, 7, 6])):
+        begins = offsets[:-1][grid.celltypes == box]
+        own = begins[:, None] + np.arange(len(order))
+        nodes[own] = nodes[own[:, order]]
+        types[grid.celltypes == box] = other
+    rows = np.insert(nodes, offsets[:-1], np.diff(offsets))
+    ordered = pv.UnstructuredGrid(rows, types, grid.points)
+    ordered.cell_data.update(grid.cell_data)
+    ordered.point_data.update(grid.point_data)
+    return ordered
 
 
 @contextmanager

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Reads the mesh of a Nastran file: GRID and the cards of cells, in small, large or free fields, with all
-ways to continue a card on the next line (MSC Nastran, Quick Reference Guide, The Bulk Data Section). The
-cells with one property are a group. Everything else is passed over."""
+ways to continue a card on the next line, and INCLUDE (MSC Nastran, Quick Reference Guide, The Bulk Data
+Section). The cells with one property are a group. Cards of cells that are not known are refused, everything
+else is passed over."""
 
 from __future__ import annotations
 
@@ -19,10 +20,12 @@ from .raw_mesh import RawCells, RawMesh, text_of
 #: kinds of cells, by the card and without and with mid-side nodes
 KINDS = {
     **dict.fromkeys(("CROD", "CTUBE", "CBAR", "CBEAM", "CBUSH", "CBUSH1D", "CGAP"), ("line",)),
-    **dict.fromkeys(("CTRIA3", "CTRIAR"), ("triangle",)),
-    **dict.fromkeys(("CTRIA6", "CTRIAX6", "CTRAX6"), ("triangle6",)),
-    **dict.fromkeys(("CQUAD4", "CQUADR", "CSHEAR"), ("quad",)),
-    "CQUAD8": ("quad8",),
+    **dict.fromkeys(("CTRIA3", "CTRIAR", "CPLSTN3", "CPLSTS3", "CTRAX3"), ("triangle",)),
+    **dict.fromkeys(("CTRIA6", "CPLSTN6", "CPLSTS6", "CTRIAX6", "CTRAX6"), ("triangle6",)),
+    "CTRIAX": ("triangle", "triangle6"),
+    **dict.fromkeys(("CQUAD4", "CQUADR", "CSHEAR", "CPLSTN4", "CPLSTS4", "CQUADX4"), ("quad",)),
+    **dict.fromkeys(("CQUAD8", "CPLSTN8", "CPLSTS8", "CQUADX8"), ("quad8",)),
+    **dict.fromkeys(("CQUAD", "CQUADX"), ("quad", "quad8", "quad9")),
     "CTETRA": ("tetra", "tetra10"),
     **dict.fromkeys(("CPYRAM", "CPYRA"), ("pyramid", "pyramid13")),
     "CPENTA": ("wedge", "wedge15"),
@@ -34,6 +37,8 @@ ORDERS = {
     "hexahedron20": [*range(12), 16, 17, 18, 19, 12, 13, 14, 15],
 }
 ROUND = ("CTRIAX6", "CTRAX6")  # corners and mid-side nodes in turn
+#: names of cards of cells begin with these: those that are not known here must not be missing without a word
+CELLS = re.compile(r"C(TRI|TRA|QUAD|SHEAR|PLST|TETR|PENT|PYR|HEX|IFQ|IFH|IFP|RAC)")
 
 
 def read(path: str | Path) -> RawMesh:
@@ -41,7 +46,7 @@ def read(path: str | Path) -> RawMesh:
     row_of: dict[int, int] = {}
     points: list[list[float]] = []
     cells: list[tuple[str, int, str, list[int]]] = []  # kind, label, property, labels of nodes
-    for keyword, fields in _cards(text_of(path)):
+    for keyword, fields in _cards("\n".join(_lines(Path(path), []))):
         if keyword in ("GRID", "GRDSET") and fields[1] not in ("", "0"):
             card = f"{keyword} {fields[0]}".strip()
             raise UserError(
@@ -56,6 +61,8 @@ def read(path: str | Path) -> RawMesh:
             if kind == "line" and len(nodes) < 2:  # a spring to the ground
                 continue
             cells.append((kind, int(fields[0]), fields[1], nodes))
+        elif CELLS.match(keyword):
+            raise UserError(f"{path}: cells of the card {keyword} (the first is {fields[0]}) are not read.")
     blocks: list[RawCells] = []
     properties: list[np.ndarray] = []
     for kind, run in groupby(cells, key=lambda cell: cell[0]):
@@ -76,6 +83,31 @@ def read(path: str | Path) -> RawMesh:
             f"property {n}": [np.flatnonzero(own == n) for own in properties] for n in sorted(names, key=int)
         },
     )
+
+
+def _lines(path: Path, within: list[Path]) -> Iterator[str]:
+    """Those of a file, with the files that INCLUDE names in its place. A name may go on on further lines."""
+    if path.resolve() in within:
+        raise UserError(f"{path}: INCLUDE goes round in a circle.")
+    within = [*within, path.resolve()]
+    lines = iter(text_of(path).splitlines())
+    for line in lines:
+        found = re.match(r"\s*INCLUDE\b[\s=]*(.*)", line, re.IGNORECASE)
+        if not found:
+            yield line
+            continue
+        name = found[1].strip()
+        if (quote := name[:1]) in ("'", '"') and quote:
+            while quote not in name[1:] and (more := next(lines, None)) is not None:
+                name += more.strip()
+            name = name[1:].partition(quote)[0]
+        else:
+            name = name.partition("$")[0].strip()
+        spelled = [folder / name for folder in (path.parent, within[0].parent)]
+        source = next((file for file in spelled if file.is_file()), None)
+        if source is None:
+            raise UserError(f"{path}: there is no file {name}, which INCLUDE reads.")
+        yield from _lines(source, within)
 
 
 def _cards(text: str) -> Iterator[tuple[str, list[str]]]:
@@ -108,8 +140,8 @@ def _cell(keyword: str, fields: list[str], path: str | Path) -> tuple[str, list[
     kinds = KINDS[keyword]
     sizes = [nodes_of(kind) for kind in kinds]
     given = fields[2 : 2 + max(sizes)]
-    second = len(sizes) > 1 and any(given[sizes[0] :])
-    kind, size = kinds[second], sizes[second]
+    which = next((k for k, size in enumerate(sizes) if not any(given[size:])), 0)
+    kind, size = kinds[which], sizes[which]
     nodes = [int(word) for word in given[:size] if word]
     if len(nodes) != size and kind != "line":
         raise UserError(

@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from .graphics import pv
+from .graphics import offsets_of, pv
 from .mesh import Mesh, Step
 from .results import Frame
 from .scene import Item, Scene
@@ -133,9 +133,7 @@ class _Part:
         # a wheel's marked tooth comes with the points of the whole wheel
         self.used, self.connectivity = np.unique(grid.cell_connectivity, return_inverse=True)
         self.types = np.asarray(grid.celltypes, np.uint8)
-        # pyvista has renamed it
-        offsets = grid.cell_offsets if hasattr(grid, "cell_offsets") else grid.offset
-        self.sizes = np.diff(offsets)
+        self.sizes = np.diff(offsets_of(grid))
         self.count = item.mesh.n_points
         self.points = self.last = np.asarray(item.mesh.points, float)[self.used]
 

@@ -38,14 +38,14 @@ NODE, ELEMENT = 7, 8
 def read(path: str | Path) -> RawMesh:
     """With its groups as sets of cells and of points."""
     sets: dict[str, list[list[str]]] = {}
-    for number, lines in _datasets(text_of(path)):
+    for number, lines in _datasets(text_of(path), path):
         sets.setdefault(number, []).append(lines)
     if "2411" not in sets or "2412" not in sets:
         raise UserError(f"{path} is no universal file with nodes and cells (datasets 2411 and 2412).")
     labels, points = _nodes([line for lines in sets["2411"] for line in lines])
     row_of = _Rows(labels)
     blocks, names = _cells([line for lines in sets["2412"] for line in lines], row_of, path)
-    groups = [g for number in GROUPS for lines in sets.get(number, []) for g in _groups(lines)]
+    groups = [g for number in GROUPS for lines in sets.get(number, []) for g in _groups(lines, path)]
     cell_sets: dict[str, list[np.ndarray]] = {}
     point_sets: dict[str, np.ndarray] = {}
     for name, members in groups:
@@ -75,12 +75,17 @@ class _Rows:
         return self.order[place]
 
 
-def _datasets(text: str) -> list[tuple[str, list[str]]]:
+def _datasets(text: str, path: str | Path) -> list[tuple[str, list[str]]]:
     """Numbers and lines of what stands between two lines of -1."""
     out: list[tuple[str, list[str]]] = []
     lines = text.splitlines()
     marks = [i for i, line in enumerate(lines) if line[:6].strip() == "-1" and line.strip() == "-1"]
-    for begin, end in zip(marks[::2], marks[1::2], strict=False):
+    if len(marks) % 2:
+        number = "".join(lines[marks[-1] + 1 : marks[-1] + 2]).strip() or "without a number"
+        raise UserError(
+            f"{path}: dataset {number} in line {marks[-1] + 1} does not end with -1: the file is cut short."
+        )
+    for begin, end in zip(marks[::2], marks[1::2], strict=True):
         if begin + 1 < end:
             out.append((lines[begin + 1].split()[0], lines[begin + 2 : end]))
     return out
@@ -121,7 +126,7 @@ def _cells(lines: list[str], row_of: _Rows, path: str | Path) -> tuple[list[RawC
     return blocks, names
 
 
-def _groups(lines: list[str]) -> list[tuple[str, np.ndarray]]:
+def _groups(lines: list[str], path: str | Path) -> list[tuple[str, np.ndarray]]:
     """Names and members, a row of type and label each."""
     out: list[tuple[str, np.ndarray]] = []
     at = 0
@@ -134,6 +139,8 @@ def _groups(lines: list[str]) -> list[tuple[str, np.ndarray]]:
         while at < len(lines) and len(rows) < 4 * count:
             rows += lines[at].split()
             at += 1
+        if len(rows) < 4 * count:
+            raise UserError(f'{path}: group "{name}" has {len(rows) // 4} members instead of {count}.')
         members = np.array(rows[: 4 * count], np.int64).reshape(-1, 4)
         out.append((name, members[:, :2]))
     return out

@@ -245,3 +245,19 @@ def test_cam_away_from_its_followers_node(follower: str, tmp_path: Path) -> None
     drawn = Drawn(deck(cam, " CHA NOEUD 1 C 2 V -40", bodies=(1,)), tmp_path)
     drawn.balance((1,))
     assert drawn.largest("cam", 1, 1) > 20
+
+
+def test_frames_between_samples(tmp_path: Path) -> None:
+    """Fields kept more often than histories: what acts there lies between the samples, not at the nearest."""
+    text = deck("", " CHA NOEUD 1 C 1 V 5 NF 1", bodies=(1,))
+    text = text.replace("H 0.001", "H 0.001 TOL 1E-4") + ".SAI HISTORY 0.02 FIELDS 0.003\n"
+    drawn = Drawn(text, tmp_path)
+    t, samples = np.array(drawn.result.frame_times), drawn.result.times()
+    away = np.abs(np.subtract.outer(t, samples)).min(axis=1)
+    assert away.max() > 0.008 and np.isin([t[0], t[-1]], samples).all()
+    (load,) = (p for p in drawn.forces.points if p.kind == "load")
+    exact = 5 * (1 + np.sin(20 * t))
+    # straight lines between points of a curve are off by no more than h² / 8 of its second derivative
+    assert load.force[:, 0] == pytest.approx(exact, abs=5 * 20**2 * 0.02**2 / 8)
+    rests = away < 1e-12
+    assert load.force[rests, 0] == pytest.approx(exact[rests], abs=1e-9)

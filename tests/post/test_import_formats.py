@@ -96,6 +96,31 @@ def test_vtk_as_vtk_writes_it(command, tmp_path: Path) -> None:
         assert 'group "material 2": 1 cell' in out
 
 
+@pytest.mark.parametrize("ending", [".vtk", ".vtu"])
+def test_voxels_and_pixels(ending: str, command, tmp_path: Path) -> None:
+    """Their nodes run in rows. Meshio left them out of a .vtu without a word, and could not read the .vtk."""
+    import pyvista as pv
+
+    x, y, z = (a.ravel(order="F") for a in np.meshgrid([0, 1, 2], [0, 1], [0, 1], indexing="ij"))
+    points, file = np.column_stack([x, y, z]).astype(float), tmp_path / f"mesh{ending}"
+    rows = np.array([[8, 0, 1, 3, 4, 6, 7, 9, 10], [8, 1, 2, 4, 5, 7, 8, 10, 11]])
+    grid = pv.UnstructuredGrid(rows.ravel(), [11, 11], points)
+    grid.cell_data["material"] = np.array([1, 2])
+    grid.save(file)
+    deck, out, err = imported(command, tmp_path, file)
+    assert err == "" and len(deck.cells) == 2 and 'group "material 2": 1 cell' in out
+    for cell in deck.cells.values():
+        check_cell(deck, cell)
+    pv.UnstructuredGrid([4, 0, 1, 2, 3], [8], points[[0, 1, 3, 4]]).save(file)
+    deck, _, err = imported(command, tmp_path, file)
+    assert err == ""
+    assert len(deck.cells) == 1
+    check_cell(deck, deck.cells[1])
+    pv.UnstructuredGrid([*rows[0], 4, 0, 1, 2, 7], [11, 36], points).save(file)
+    status, _, err = command("import", file, "-o", tmp_path / "d.dat", "--force")
+    assert status == 1 and "cells of VTK's types" in err
+
+
 def test_wedges_of_vtk_either_way_round(command, tmp_path: Path) -> None:
     """VTK's own writer has the base of a wedge as that of other solids, meshio's the other way round: neither
     is inside out."""
@@ -134,6 +159,61 @@ def test_cards_of_nastran(command, tmp_path: Path) -> None:
         assert deck.cells == {1: [1, 2, 3, 4, 0, 5, 6, 7, 8]}
         assert deck.groups["property 10"] == ("MAILLES", [(1,)])
         assert deck.groups["property 20"] == ("FACES", [(1, 2)])
+
+
+@pytest.mark.parametrize(
+    ("card", "nodes"),
+    [
+        ("CQUADX", 4),
+        ("CQUADX", 8),
+        ("CQUAD", 4),
+        ("CQUADX4", 4),
+        ("CTRIAX", 3),
+        ("CPLSTN4", 4),
+        ("CTRAX3", 3),
+    ],
+)
+def test_plane_and_axisymmetric_cells_of_nastran(card: str, nodes: int, command, tmp_path: Path) -> None:
+    """CQUADX and CTRIAX with and without mid-side nodes, which stand behind the corners."""
+    kind = {3: "triangle", 4: "quad", 8: "quad8"}[nodes]
+    points, file = meshes.points_of(kind), tmp_path / "mesh.bdf"
+    grids = "".join(f"GRID,{i},,{x!r},{y!r},{z!r}\n" for i, (x, y, z) in enumerate(points.tolist(), 1))
+    fields = [str(n) for n in (1, 10, *range(1, nodes + 1))]
+    lines = [",".join(fields[i : i + 8]) for i in range(0, len(fields), 8)]
+    file.write_text(grids + f"{card}," + "\n,".join(lines))
+    deck, _, err = imported(command, tmp_path, file)
+    assert err == "" and len(deck.cells) == 1 and len(deck.nodes) == nodes
+    check_cell(deck, deck.cells[1])
+    assert deck.groups["property 10"] == ("MAILLES", [(1,)])
+
+
+def test_cells_of_nastran_that_are_not_known(command, tmp_path: Path) -> None:
+    """They were left out without a word."""
+    file = tmp_path / "mesh.bdf"
+    file.write_text(f"{GRIDS}CHEXA,1,1,1,2,3,4,5,6\n,7,8\nCHEXAFD,2,1,1,2,3,4,5,6\n,7,8\n")
+    status, _, err = command("import", file, "-o", tmp_path / "d.dat")
+    assert status == 1 and f"{file}: cells of the card CHEXAFD (the first is 2) are not read" in err
+
+
+def test_files_that_nastran_includes(command, tmp_path: Path) -> None:
+    """From the folder of the file or of the first one, with names over several lines; none is passed over."""
+    main, folder = tmp_path / "mesh.bdf", tmp_path / "parts"
+    folder.mkdir()
+    (folder / "grids.bdf").write_text(GRIDS)
+    (folder / "all.bdf").write_text("include 'grids.bdf'\nINCLUDE parts/cells.bdf\n")
+    (folder / "cells.bdf").write_text("CHEXA,1,10,1,2,3,4,5,6\n,7,8\n")
+    for text in ("INCLUDE 'parts/all.bdf'\nENDDATA\n", 'Include "parts/\n   all.bdf" $ all of it\n'):
+        main.write_text(f"SOL 101\nBEGIN BULK\n{text}")
+        deck, _, _ = imported(command, tmp_path, main)
+        assert deck.cells == {1: [1, 2, 3, 4, 0, 5, 6, 7, 8]}
+        assert deck.groups["property 10"] == ("MAILLES", [(1,)])
+    for text, said in (
+        ("INCLUDE 'none.bdf'\n", f"{main}: there is no file none.bdf, which INCLUDE reads"),
+        ("INCLUDE 'mesh.bdf'\n", "INCLUDE goes round in a circle"),
+    ):
+        main.write_text(GRIDS + text)
+        status, _, err = command("import", main, "-o", tmp_path / "d.dat")
+        assert status == 1 and said in err
 
 
 def test_cells_with_nodes_missing(command, tmp_path: Path) -> None:
@@ -201,6 +281,25 @@ def test_groups_of_which_nothing_remains(command, tmp_path: Path) -> None:
     meshes.write_unv(unv, meshio.Mesh(points, [("hexahedron", cells)]), {"one": [(8, 77)], "no": [(6, 1)]})
     _, _, err = imported(command, tmp_path, unv)
     assert '2 groups left out, of which nothing remains: "one", "no".' in err
+
+
+def test_surfaces_of_nodes(command, tmp_path: Path) -> None:
+    """*SURFACE, TYPE=NODE is a group of nodes; it was left out without a word."""
+    file = tmp_path / "mesh.inp"
+    file.write_text(f"{PLATE}*NSET, NSET=Rim\n1, 2\n*SURFACE, TYPE=NODE, NAME=Slave\nRIM, 1.\n3,\n")
+    deck, _, _ = imported(command, tmp_path, file)
+    assert deck.groups["Slave"] == ("NOEUDS", [(1,), (2,), (3,)])
+    assert deck.groups["Rim"] == ("NOEUDS", [(1,), (2,)])
+    named = f"{PLATE}*NSET, NSET=Rim\n1, 2\n*SURFACE, TYPE=NODE, NAME=Rim\n{{}}\n"
+    file.write_text(named.format("Rim"))
+    assert imported(command, tmp_path, file)[0].groups["Rim"] == ("NOEUDS", [(1,), (2,)])
+    for rows, said in (
+        ("3", "*SURFACE Rim has other nodes than *NSET Rim; rename one"),
+        ("other, 1.", "*SURFACE names other, which is no set of nodes before it"),
+    ):
+        file.write_text(named.format(rows))
+        status, _, err = command("import", file, "-o", tmp_path / "d.dat")
+        assert status == 1 and f"{file}: {said}" in err
 
 
 def test_what_abaqus_allows(command, tmp_path: Path) -> None:
