@@ -36,6 +36,30 @@ SPRINGS = """
 .FIN 1
 """
 
+# two discs on the axes of their hinges, with a link between them: a spring, a belt
+DISCS = """.NOE
+ I 1 X 0 0 0
+ I 2 X 0.5 0 0
+.MCE
+ I 1 HINGE N 0 1 AXIS {axis}
+ I 2 HINGE N 0 2 AXIS {axis}
+ I 3 INERTIA N 1 M 1 J 0.02
+ I 4 INERTIA N 2 M 1 J 0.08
+ I 5 {link}
+ I 6 TORQUE N 1 AXIS {axis} V {torque}
+{rest}.FIN 1
+"""
+
+# a mesh of one square of 1
+SQUARE = """.NOE
+ I 1 X 0 Y 0
+ I 2 X 1 Y 0
+ I 3 X 1 Y 1
+ I 4 X 0 Y 1
+.MAI
+ I 1 N 1 2 3 4
+"""
+
 # a mesh of two squares of 10 in a row
 SQUARES = """.NOE
  I 1 X 0 Y 0
@@ -47,4 +71,16 @@ SQUARES = """.NOE
 .MAI
  I 1 AT 1 0 N 1 2 5 4
  I 2 AT 2 0 N 2 3 6 5
+"""
+
+# two wheels on hinges, of 30 and 60 teeth; the deck goes on from here
+GEAR_PAIR = """.NOE
+ I 1
+ I 2 X 0.09
+.MCE
+ I 1 HINGE N 0 1 AXIS 0 0 1
+ I 2 HINGE N 0 2 AXIS 0 0 1
+ I 3 GEAR N 1 2 Z 30 60 MN 0.002 HELIX 0 AXIS 0 0 1
+ I 4 INERTIA N 1 J 1D-3
+ I 5 INERTIA N 2 J 1D-2
 """

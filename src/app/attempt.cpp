@@ -96,6 +96,11 @@ Attempt::Attempt(const Task& task, const Trial& trial, std::optional<Companion>&
   if (schedule_.controlled()) schedule_.ask(times_of(checks), over_time ? parts_of_steps : 1);
 }
 
+/// A static start is the same for all schemes, but for the precision that another_scheme() gives it.
+bool Attempt::no_scheme_helps() const {
+  return !started_ && !task_.resumption && trial_.options.static_start && trial_.options.precision >= precision_of_other_scheme;
+}
+
 Verdict Attempt::make() {
   if (!open_results()) return {exit_status::wrong_deck, {}};
   if (task_.reading.is_one_solution()) task_.reading.forget_mesh();
@@ -103,7 +108,8 @@ Verdict Attempt::make() {
   run();
   if ((unsolved_ || wrong_) && trial_.settled) return settle(trial_, failure_, rank_);
   if (unsolved_ && trial_.complete) return back(trial_, failure_, rank_);
-  if (unsolved_ && trial_.options.scheme_is_free) return another_scheme(task_.reading.model, trial_, failure_, rank_);
+  if (unsolved_ && trial_.options.scheme_is_free && !no_scheme_helps())
+    return another_scheme(task_.reading.model, trial_, failure_, rank_);
   if (std::optional<Trial> next = sharper()) return {exit_status::fine, std::move(next)};
   tell_condition();
   return {finish(), {}};
@@ -142,7 +148,6 @@ void Attempt::run() {
   scheme_ = make_scheme(context_);
   runner_.emplace(context_, *scheme_);
   if (schedule_.controlled()) observer_.keep_ends();
-  corner_powers_.emplace(context_, observer_);
   const StepCallback seen = [this](const Configuration& solved, const StepReport& step) { return after_step(solved, step); };
   leave_at_once(true);
   try {
@@ -156,6 +161,7 @@ void Attempt::run() {
       complete_ = runner_->resume(memory, seen);
     } else {
       complete_ = runner_->run(seen, [this](const StartReport& start) {
+        started_ = true;
         if (rank_ == 0) writer_->started(start);
       });
     }
@@ -185,8 +191,6 @@ bool Attempt::after_step(const Configuration& solved, const StepReport& step) {
   if (schedule_.controlled() && step.number > 0) {
     instants.emplace(schedule_, observer_, context_.out_of_plane, last_time_, solved, step);
     instants->observe_inside();
-  } else if (step.number > 0) {
-    corner_powers_->observe(solved, step);
   }
   const auto watch = times_.output();
   const Schedule::Due due = instants ? show_instants(*instants, solved, step) : show(solved, step);
@@ -277,26 +281,25 @@ std::optional<Trial> Attempt::sharper() {
                .differences = differences_};
 }
 
-ErrorEstimate Attempt::deciding_estimate(ErrorEstimate& stated) {
+Attempt::Estimates Attempt::estimates() {
   const SolverOptions& wanted = trial_.options;
   ErrorEstimate estimate = companion_->estimate(runner_->steps());
-  stated = estimate;
-  if (!estimate.trouble.empty()) return estimate;
+  if (!estimate.trouble.empty()) return {estimate, estimate};
   estimate.follow(trial_.differences);
   if (steps_are_longest()) estimate.steps_reach(wanted.longest);
   if (wanted.longest < solver_options(task_.reading.model).longest) estimate.shortened = wanted.longest;
-  const double difference = estimate.difference();
-  stated = estimate;
+  Estimates found{estimate, estimate};
   if (const LostVibrations* const lost = scheme_->lost_vibrations()) {
     const LostChannel most = companion_->most_lost(*lost);
-    stated.include_lost(most.error, most.channel, most.period);
+    found.stated.include_lost(most.error, most.channel, most.period, wanted.target);
     const double reach = most_more_steps * static_cast<double>(first_steps());
-    if (stated.vibration > 0 && wanted.end - begun() <= reach * stated.follows_vibration()) estimate = stated;
+    if (found.stated.vibration > 0 && wanted.end - begun() <= reach * found.stated.follows_vibration())
+      found.deciding = found.stated;
   }
   differences_ = trial_.differences;
   // two runs that lose a vibration differ less than those that hold it
-  if (estimate.vibration == 0) differences_.push_back(difference);
-  return estimate;
+  if (found.deciding.vibration == 0) differences_.push_back(estimate.difference());
+  return found;
 }
 
 std::array<double, 2> Attempt::sharper_steps() {
@@ -304,8 +307,7 @@ std::array<double, 2> Attempt::sharper_steps() {
   const SolverOptions& wanted = trial_.options;
   double tolerance = 0, longest = wanted.longest;
   if (rank_ == 0) {
-    ErrorEstimate stated;
-    const ErrorEstimate estimate = deciding_estimate(stated);
+    const auto [estimate, stated] = estimates();
     const bool again = trial_.may_repeat && estimate.trouble.empty() && estimate.error > wanted.target;
     const std::string missed =
         fmt::format("engrane: the error is estimated to be {:.2g} of the range of {}, more than the {:g} asked for: again, with ",

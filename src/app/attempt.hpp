@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "app/companion.hpp"
-#include "app/corner_powers.hpp"
 #include "app/energy_watch.hpp"
 #include "app/fast_turns.hpp"
 #include "app/instants.hpp"
@@ -63,11 +62,15 @@ class Attempt {
   template <class Write>
   void write(const Write& write);
 
+  bool no_scheme_helps() const;
   /// The next run to make if the error of this one is too large, otherwise nothing. Collective.
   std::optional<Trial> sharper();
-  /// The estimate that decides on it: without vibrations that are far too fast for the motion. They are `stated`, not followed.
+  /// Vibrations that are far too fast for the motion are stated, but no run is repeated for them.
+  struct Estimates {
+    ErrorEstimate deciding, stated;
+  };
   /// On rank 0.
-  ErrorEstimate deciding_estimate(ErrorEstimate& stated);
+  Estimates estimates();
   /// Tolerance and longest step (time) of that run; the tolerance is 0 if there is none. Collective.
   std::array<double, 2> sharper_steps();
   /// Whether nearly every step was as long as HMAX allows, so that TOL determined few of them.
@@ -93,7 +96,6 @@ class Attempt {
   FastTurns fast_turns_;
   solve::StabilityWatch stability_;
   EnergyWatch energies_;
-  std::optional<CornerPowers> corner_powers_;
   std::optional<Writer> writer_;  ///< of rank 0
   std::unique_ptr<solve::Scheme> scheme_;
   std::optional<solve::Runner> runner_;
@@ -101,6 +103,7 @@ class Attempt {
   std::string failure_;     ///< what stopped the run; empty when nothing did
   bool complete_ = false;   ///< the run came to its end
   bool unsolved_ = false;   ///< no solution was found at some step
+  bool started_ = false;    ///< the first configuration was found
   bool wrong_ = false;      ///< the energy balance shows that the solutions are wrong
   bool unwritten_ = false;  ///< results could not be written
 };

@@ -57,6 +57,11 @@ constexpr double no_range = 1e-6;
 constexpr double no_size = 1e-9;
 /// A vibration with half of the range as its amplitude, root of the mean square over time and a little more.
 constexpr double largest_lost = 0.4;
+/// A velocity of an element is taken to be that of its nodes relative to each other, along an axis, where their ranges differ by
+/// no more than this.
+constexpr double same_range = 1.2;
+
+bool is_velocity(const Dimension& d) { return d == dimension::velocity || d == dimension::angular_velocity; }
 
 /// The rotation vector of the same rotation that is nearest to `other`: as many turns about its axis are added as it takes.
 Vec3 nearest_rotation_vector(const Vec3& v, const Vec3& other) {
@@ -186,7 +191,7 @@ void Companion::choose_columns(const observe::Observer& observer, const Model& m
     columns_.push_back({static_cast<std::size_t>(at), static_cast<std::size_t>(at), owner, channel.name, channel.dimension, 0,
                         std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()});
     columns_.back().part = part;
-    if (part >= 0 && channel.dimension == dimension::force)
+    if (part >= 0 && (channel.dimension == dimension::force || is_velocity(channel.dimension)))
       columns_.back().nodes = model.parts[static_cast<std::size_t>(part)].nodes;
     columns_.back().node = node;
   };
@@ -390,7 +395,7 @@ LostChannel Companion::lost_acceleration(const Column& column, const LostVibrati
 }
 
 LostChannel Companion::lost_force(const Column& column, const LostVibrations& lost) const {
-  if (column.dimension != dimension::force) return {};  // moments have the dimension of energies
+  if (column.part < 0 || column.dimension != dimension::force) return {};  // moments have the dimension of energies
   // which of the forces of an element it is cannot be told: the one that changes most
   const auto begin = columns_.begin() + (&column - columns_.data());
   const auto elsewhere = [&](const Column& other) { return other.part != column.part; };
@@ -410,13 +415,27 @@ LostChannel Companion::lost_force(const Column& column, const LostVibrations& lo
   return most;
 }
 
+LostChannel Companion::lost_speed(const Column& column, const LostVibrations& lost) const {
+  if (column.part < 0 || !is_velocity(column.dimension) || column.nodes.empty() || column.nodes.size() > 2) return {};
+  const int a = column.nodes.front(), b = column.nodes.size() == 2 ? column.nodes.back() : 0;
+  if (a == b) return {};
+  const std::size_t first = lost.relative(a, b) + (column.dimension == dimension::angular_velocity ? 3 : 0);
+  LostChannel most;
+  for (std::size_t slot = first; slot < first + 3; ++slot) {
+    const double error = lost.missing_speed(slot) / column.range(), ratio = lost.range_of_speed(slot) / column.range();
+    if (error > most.error && error < largest_lost && ratio < same_range && same_range * ratio > 1)
+      most = {error, column.owner + "/" + column.channel, lost.period(slot)};
+  }
+  return most;
+}
+
 LostChannel Companion::most_lost(const LostVibrations& lost) const {
   LostChannel most;
   const std::vector<Largest> all = largest_by_dimension();
   for (const Column& column : columns_) {
     if (!(column.range() > noise_of(column, all))) continue;
-    const LostChannel found = column.part < 0 ? lost_acceleration(column, lost) : lost_force(column, lost);
-    if (found.error > most.error) most = found;
+    for (const LostChannel& found : {lost_acceleration(column, lost), lost_force(column, lost), lost_speed(column, lost)})
+      if (found.error > most.error) most = found;
   }
   return most;
 }

@@ -49,8 +49,8 @@ class Companion {
   void widen(const observe::Observer& observer);
   /// The estimate after the run itself has ended with this number of steps. On rank 0.
   ErrorEstimate estimate(long steps) const;
-  /// Of the channels that are compared, the acceleration of a node or the force of an element with the largest part lost by steps
-  /// of the run itself. On rank 0, after estimate().
+  /// Of the channels that are compared, the acceleration of a node, or the force or velocity of an element, with the largest part
+  /// lost by steps of the run itself. On rank 0, after estimate().
   LostChannel most_lost(const solve::LostVibrations& lost) const;
   /// Why the companion run failed; empty if it did not. On all ranks.
   const std::string& trouble() const { return estimate_.trouble; }
@@ -84,7 +84,7 @@ class Companion {
     Dimension dimension;
     double squares = 0, least = 0, largest = 0;
     double before = 0;            ///< difference between the companion and its own companion; 0: it had none
-    std::vector<int> nodes = {};  ///< of the element, for a force: indices into Model::nodes
+    std::vector<int> nodes = {};  ///< of the element, for a force or a velocity: indices into Model::nodes
     int part = -1;                ///< element (index into Model::parts); −1: not a channel of an element
     int node = -1;                ///< index into Model::nodes; −1: not a channel of a node
     int component = -1;           ///< 0 to 2, of a vector of a node whose three columns are adjacent; −1: not one of these
@@ -102,11 +102,12 @@ class Companion {
     Dimension dimension;
     double range = 0, size = 0;
   };
-  /// Difference between the run and its companion in a column, from their rows of values at an instant.
-  /// The part of an acceleration, or of a force, that steps have lost, over its range; an element has the forces of inertia of
-  /// its nodes.
+  /// The part of an acceleration, of a force or of a velocity that steps have lost, over its range; an element has the forces of
+  /// inertia of its nodes, and their relative velocity.
   LostChannel lost_acceleration(const Column& column, const solve::LostVibrations& lost) const;
   LostChannel lost_force(const Column& column, const solve::LostVibrations& lost) const;
+  LostChannel lost_speed(const Column& column, const solve::LostVibrations& lost) const;
+  /// Difference between the run and its companion in a column, from their rows of values at an instant.
   double difference(std::size_t column, const double* run, const double* companion) const;
   /// Difference between the two runs in a channel: root of the mean square over time.
   double difference(const Column& column) const;

@@ -41,14 +41,14 @@ std::string jump_remark(const SolverContext& context, const References& referenc
   constexpr double small = 1e-3;
   const observe::Jump& jump = balance.jump;
   const double energy = std::abs(jump.lost);
-  // what cannot be deformed does not snap: drives that turn far within a step are all that the works differ by
+  // a rigid structure cannot snap: its works differ only because drives turn far within a step
   if (balance.handled() <= small * energy) return {};
   if (energy <= small * balance.handled() || counts_as_none(energy, context, references)) return {};
   const std::string begin = fmt::format("{:.6g}", jump.begin), end = fmt::format("{:.6g}", jump.end);
   const std::string when = begin == end ? "at t = " + begin : fmt::format("between t = {} and {}", begin, end),
                     unit = context.model.units.label(dimension::energy);
   const bool follows = context.options.path.follow;
-  // a path leads there, if not a straight one; and only models with gaps are known to go astray
+  // .PATH reached this equilibrium along a curved path; and iterations are known to go astray only across gaps
   if (jump.lost < 0 && (follows || std::none_of(context.model.parts.begin(), context.model.parts.end(),
                                                 [](const Model::Part& part) { return part.element->has_gaps(); })))
     return {};

@@ -34,10 +34,12 @@ void ErrorEstimate::follow(const std::vector<double>& differences) {
   share = 1;
 }
 
-void ErrorEstimate::include_lost(double lost, const std::string& where, double period) {
-  if (!(lost > error)) return;
-  error = lost;
-  channel = where;
+void ErrorEstimate::include_lost(double lost, const std::string& where, double period, double target) {
+  // runs that hold some of a vibration differ by it at random, as in chaos
+  const bool explains = !falls && lost > target;
+  if (!(lost > error) && !explains) return;
+  if (lost > error) channel = where;
+  error = std::max(error, lost);
   vibration = period;
   share = 1;
   order = order_of_lost;

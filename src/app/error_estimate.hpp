@@ -34,8 +34,9 @@ struct ErrorEstimate {
   /// are about the same; where runs begin to resolve a vibration they grow before they fall.
   void follow(const std::vector<double>& differences);
   /// Takes an error for this one that the difference of the two runs does not show, if it is larger: `error` of `where`, by the
-  /// loss of a vibration with this period. What comes of the difference alone is to be asked for before.
-  void include_lost(double lost, const std::string& where, double period);
+  /// loss of a vibration with this period. If it exceeds the `target`, it also explains differences that do not fall with TOL.
+  /// What comes of the difference alone is to be asked for before.
+  void include_lost(double lost, const std::string& where, double period, double target);
   /// Call if all steps of the run have this length, the longest allowed, and those of the companion twice that: motions that are
   /// faster are not seen.
   void steps_reach(double longest_step);

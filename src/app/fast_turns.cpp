@@ -50,7 +50,7 @@ FastTurns::FastTurns(const Model& model, const SolverOptions& options)
       radau_(options.family == SolverOptions::Family::radau),
       error_per_square_(radau_ ? 0 : error_per_square(options)),
       limit_(radau_ ? limit_of_radau : std::sqrt(most_error / error_per_square_)) {
-  // axes of plane motion do not turn, and a tolerance follows what they do
+  // axes do not turn in plane motion, and steps with a tolerance follow those that do
   if (options.analysis != SolverOptions::Analysis::dynamics || options.tolerance > 0 || model.plane.active()) return;
   std::vector<bool> known(model.nodes.size(), false);
   for (std::size_t p = 0; p < model.parts.size(); ++p) {

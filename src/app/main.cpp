@@ -78,7 +78,7 @@ void make_folder(const std::string& prefix) {
 }
 
 /// Checks or solves one deck.
-int perform(const std::string& deck, const Options& options, bool talk, RunSummary& run) {
+int perform_on(const std::string& deck, const Options& options, bool talk, RunSummary& run) {
   if (options.task == Options::Task::check && !options.allow_user) user::Library::trust_only_neighbours();
   Reading reading = read_deck(deck, options.wishes);
   if (talk) reading.diagnostics.print(std::cerr, reading.sources);
@@ -99,6 +99,7 @@ int perform(const std::string& deck, const Options& options, bool talk, RunSumma
   return solve_deck(reading, options, prefix, PETSC_COMM_WORLD, run);
 }
 
+/// Does what the command line asks for; `talk`: this rank prints. Returns the exit status.
 int perform(const Options& options, bool talk) {
   if (options.task != Options::Task::run && options.task != Options::Task::check)
     return talk ? print_about_cards(options) : exit_status::fine;
@@ -108,7 +109,7 @@ int perform(const Options& options, bool talk) {
     RunSummary& run = runs.emplace_back();
     run.deck = deck;
     run.overrides = options.wishes.overrides;
-    run.status = perform(deck, options, talk, run);
+    run.status = perform_on(deck, options, talk, run);
     status = worse_status(status, run.status);
     if (was_interrupted()) break;
   }

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/mesh_seams.hpp"
 #include "app/selection.hpp"
 #include "deck/cards/mesh_cards.hpp"
 #include "elements/structural/cell_book.hpp"
@@ -22,7 +23,7 @@ namespace {
 
 using elements::structural::CellBook;
 
-/// The groups of cells of a deck, read again: the model does not keep them.
+/// Numbers of the cells of these groups. `book` has read the groups of the deck again: the model does not keep them.
 std::vector<int> cells_of(const CellBook& book, const std::vector<std::string>& groups) {
   std::vector<int> all;
   for (const std::string& group : groups) {
@@ -116,14 +117,6 @@ void look_at_damping(const deck::Deck& deck, const Model& model, const CellBook&
   }
 }
 
-/// Warns about rotations that turn no cells.
-void look_at_rotations(const deck::Deck& deck, const CellBook& book, Diagnostics& diagnostics) {
-  for (const deck::Record& record : deck.records)
-    if (const auto* card = record.get<deck::RotationCard>(); card && cells_of(book, card->groups).empty())
-      diagnostics.warning(record.where("GROUP"),
-                          fmt::format("group \"{}\" has no cells: this ROT has no effect", fmt::join(card->groups, "\", \"")));
-}
-
 /// A number that depends on the set of nodes, in any order. Different sets may have the same.
 std::uint64_t mark_of(std::span<const int> nodes) {
   std::uint64_t sum = 0;
@@ -177,18 +170,17 @@ void look_for_cells_twice(const Model& model, Diagnostics& diagnostics) {
 void warn_of_mesh_slips(const deck::Deck& deck, const Model& model, Diagnostics& diagnostics) {
   if (std::none_of(model.parts.begin(), model.parts.end(), [](const Model::Part& part) { return part.is_cell(); })) return;
   look_for_cells_twice(model, diagnostics);
-  const bool misses = misses_density(deck, model);
-  const bool turns = std::any_of(deck.records.begin(), deck.records.end(),
-                                 [](const deck::Record& record) { return record.get<deck::RotationCard>(); });
-  const bool rings = misses_damping(deck, model);
-  if (!misses && !turns && !rings) return;
+  warn_of_loose_middles(model, diagnostics);
+  warn_of_inner_pressures(model, diagnostics);
+  const bool no_density = misses_density(deck, model);
+  const bool undamped = misses_damping(deck, model);
+  if (!no_density && !undamped) return;
   const NodePositions nodes(model.nodes);
-  Diagnostics told;  // discarded: building the model has reported these faults
-  const BuildContext context{nodes, model.functions, told, deck.records.front(), nullptr, &deck.records};
+  Diagnostics discarded;  // building the model has reported these faults
+  const BuildContext context{nodes, model.functions, discarded, deck.records.front(), nullptr, &deck.records};
   const CellBook book(context);
-  if (misses) look_at_densities(deck, model, book, diagnostics);
-  if (rings) look_at_damping(deck, model, book, diagnostics);
-  if (turns) look_at_rotations(deck, book, diagnostics);
+  if (no_density) look_at_densities(deck, model, book, diagnostics);
+  if (undamped) look_at_damping(deck, model, book, diagnostics);
 }
 
 }  // namespace engrane::app

@@ -9,6 +9,7 @@
 #include <iostream>
 #include <map>
 #include <string_view>
+#include <utility>
 
 #include "app/version.hpp"
 
@@ -77,6 +78,134 @@ void check_prefixes(const Options& options) {
   }
 }
 
+/// What the command line may say, and the options that it fills in.
+class Grammar {
+ public:
+  explicit Grammar(Options& options) : options_(options) {
+    app.name("engrane");
+    app.footer(
+        "Exit status: 0 fine, 1 the deck or the command is wrong or files cannot be written, and nothing was solved, 2 the "
+        "solution\n"
+        "failed, 3 a fault of the program, 4 a .CHK failed, 139 a user routine crashed (128 and the signal)\n"
+        "or ended the program.\n"
+        "PETSc's options (-snes_monitor, -ksp_view, -mat_mumps_icntl_14 80, -log_view ...) reach PETSc unchanged.\n"
+        "Under MPI: mpiexec -n 2 engrane deck.dat");
+    app.set_version_flag("--version", std::string("engrane ") + version);
+    add_run();
+    add_tasks();
+    app.require_subcommand(0, 1);
+    usage_ = app.help();  // later it would be the help of the subcommand
+  }
+
+  /// Fills in the options from a command line that has been parsed. Throws CLI::ParseError.
+  void finish() {
+    leave_out_run();
+    for (const auto& [subcommand, task] : tasks_)
+      if (subcommand->parsed()) options_.task = task;
+    if (options_.task == Options::Task::man) options_.usage = usage_;
+    if (options_.task == Options::Task::completion) list_completions();
+    if (options_.task == Options::Task::run && options_.decks.empty())
+      throw CLI::RequiredError("a deck to solve, or one of check, help, template, manual, schema,");
+    for (const std::string& word : words_) options_.card += (options_.card.empty() ? "" : " ") + word;
+    for (const std::string& text : definitions_) add_definition(options_, text);
+    if (options_.task == Options::Task::run) check_prefixes(options_);
+  }
+
+  CLI::App app{
+      "engrane: flexible multibody mechanisms with gears, from a SAMCEF/MECANO-like deck\n\n"
+      "  engrane deck.dat              solve; writes deck.h5, deck.xdmf and deck.lst here\n"
+      "  engrane a.dat b.dat           solve one after the other; a summary ends it\n"
+      "  engrane deck.dat -D A=0.3     the same with another text for the deck's abbreviation /A\n"
+      "  engrane deck.dat --card \".SUB TF 1 H 1E-4\"    with another .SUB than the deck's\n"
+      "  engrane check deck.dat        read and verify only, and say what would be built\n"
+      "  engrane help GEAR             what a card takes; without a word, all cards\n"
+      "  engrane help friction         which cards have to do with it\n"
+      "  engrane template GEAR         a card to fill in\n"};
+
+ private:
+  void add_overrides(CLI::App& to) {
+    to.add_option("-D,--define", definitions_, "text that stands for the abbreviation /NAME of the deck, whatever its ABRE says")
+        ->type_name("NAME=VALUE")
+        ->allow_extra_args(false);
+    to.add_option("--card", options_.wishes.overrides.cards,
+                  "this card in the place of the deck's, for .SAM, .SUB and others that a deck has once: \".SUB TF 1 H 1E-3\"")
+        ->type_name("CARD")
+        ->allow_extra_args(false);
+  }
+
+  void add_run() {
+    app.add_option("-o,--output", options_.prefix, "where the results go: prefix of .h5, .xdmf and .lst, or a folder/");
+    app.add_flag("-q,--quiet", options_.quiet, "no progress, no advice, no summary of several decks");
+    app.add_flag("--json", options_.json, "print status, effort, checks, energies and files as JSON, and nothing else");
+    add_overrides(app);
+    app.add_option("--result", options_.wishes.results, "print this number: \"ELEMENT 3 NORMAL_FORCE MAX\", as in .CHK")
+        ->type_name("QUANTITY")
+        ->allow_extra_args(false);
+    app.add_flag("--condition", options_.condition,
+                 "the listing also gives the condition of the last linear system, and a bound on the error of its solution");
+    app.add_option("--until", options_.until,
+                   "stop at the end of the first step that reaches this time; --restart continues from there")
+        ->type_name("TIME")
+        ->check(finite);
+    auto* restart =
+        app.add_option("--restart", options_.restart, "continue these results, as .SAM RESTART does")->type_name("PREFIX");
+    app.add_option("--restart-at", options_.restart_time, "continue from the last restart point up to this time")
+        ->type_name("TIME")
+        ->check(finite)
+        ->needs(restart);
+    app.add_option("deck", options_.decks, "the decks to solve");
+  }
+
+  CLI::App* add_task(Options::Task task, const char* name, const char* help) {
+    CLI::App* const subcommand = app.add_subcommand(name, help);
+    tasks_.emplace_back(subcommand, task);
+    return subcommand;
+  }
+
+  void add_tasks() {
+    using Task = Options::Task;
+    CLI::App* const check = add_task(Task::check, "check", "read and verify a deck, and say what would be built");
+    check->add_option("deck", options_.decks, "the decks")->required();
+    add_overrides(*check);
+    check->add_flag(
+        "--allow-user", options_.allow_user,
+        "load user libraries that lie elsewhere than beside the deck or in ENGRANE_USER_PATH; this runs what is in them");
+    add_task(Task::help, "help", "explain a card, or list all cards")
+        ->add_option("card", words_, "GEAR, HINGE, .SAM, .CLM FIX ..., or words to look for: friction, gravity");
+    add_task(Task::make_template, "template", "print a card to fill in")
+        ->add_option("card", options_.card, "GEAR, HINGE, .SAM ...")
+        ->required();
+    add_task(Task::manual, "manual", "print the reference manual (Markdown)");
+    add_task(Task::schema, "schema", "print all cards as a JSON schema");
+    add_task(Task::completion, "completion", "print completions for bash: source <(engrane completion)");
+    add_task(Task::man, "man", "print the manual page: engrane man > engrane.1");
+  }
+
+  /// `engrane run deck.dat`, as other programs have it, is `engrane deck.dat`, unless `run` is a deck.
+  void leave_out_run() {
+    std::vector<std::string>& decks = options_.decks;
+    std::error_code error;
+    if (options_.task == Options::Task::run && decks.size() > 1 && decks.front() == "run" &&
+        !std::filesystem::exists("run", error))
+      decks.erase(decks.begin());
+  }
+
+  void list_completions() {
+    for (const CLI::App* task : app.get_subcommands({})) options_.tasks.push_back(task->get_name());
+    // tasks of the launcher script
+    for (const char* task : {"plot", "spectrum", "orders", "picture", "animate", "export", "import", "sweep", "study", "inertia",
+                             "figures", "gallery", "demo", "test"})
+      options_.tasks.emplace_back(task);
+    for (const CLI::Option* option : app.get_options())
+      if (!option->get_lnames().empty()) options_.words.push_back("--" + option->get_lnames().front());
+  }
+
+  Options& options_;
+  std::vector<std::pair<CLI::App*, Options::Task>> tasks_;
+  std::vector<std::string> definitions_, words_;  ///< `-D` and the words of `help`, as given
+  std::string usage_;
+};
+
 }  // namespace
 
 std::string results_prefix(const Options& options, const std::string& deck) {
@@ -92,101 +221,14 @@ std::string results_prefix(const Options& options, const std::string& deck) {
 
 std::optional<Options> parse_command_line(int argc, char** argv, bool talk, int& status) {
   Options options;
-  CLI::App app{
-      "engrane: flexible multibody mechanisms with gears, from a SAMCEF/MECANO-like deck\n\n"
-      "  engrane deck.dat              solve; writes deck.h5, deck.xdmf and deck.lst here\n"
-      "  engrane a.dat b.dat           solve one after the other; a summary ends it\n"
-      "  engrane deck.dat -D A=0.3     the same with another text for the deck's abbreviation /A\n"
-      "  engrane deck.dat --card \".SUB TF 1 H 1E-4\"    with another .SUB than the deck's\n"
-      "  engrane check deck.dat        read and verify only, and say what would be built\n"
-      "  engrane help GEAR             what a card takes; without a word, all cards\n"
-      "  engrane help friction         which cards have to do with it\n"
-      "  engrane template GEAR         a card to fill in\n"};
-  app.name("engrane");
-  app.footer(
-      "Exit status: 0 fine, 1 the deck or the command is wrong or files cannot be written, and nothing was solved, 2 the "
-      "solution\n"
-      "failed, 3 a fault of the program, 4 a .CHK failed, 139 a user routine crashed (128 and the signal)\n"
-      "or ended the program.\n"
-      "PETSc's options (-snes_monitor, -ksp_view, -mat_mumps_icntl_14 80, -log_view ...) reach PETSc unchanged.\n"
-      "Under MPI: mpiexec -n 2 engrane deck.dat");
-  app.set_version_flag("--version", std::string("engrane ") + version);
-  std::vector<std::string> definitions;
-  const auto define = [&definitions, &options](CLI::App& to) {
-    to.add_option("-D,--define", definitions, "text that stands for the abbreviation /NAME of the deck, whatever its ABRE says")
-        ->type_name("NAME=VALUE")
-        ->allow_extra_args(false);
-    to.add_option("--card", options.wishes.overrides.cards,
-                  "this card in the place of the deck's, for .SAM, .SUB and others that a deck has once: \".SUB TF 1 H 1E-3\"")
-        ->type_name("CARD")
-        ->allow_extra_args(false);
-  };
-  app.add_option("-o,--output", options.prefix, "where the results go: prefix of .h5, .xdmf and .lst, or a folder/");
-  app.add_flag("-q,--quiet", options.quiet, "no progress, no advice, no summary of several decks");
-  app.add_flag("--json", options.json, "print status, effort, checks, energies and files as JSON, and nothing else");
-  define(app);
-  app.add_option("--result", options.wishes.results, "print this number: \"ELEMENT 3 NORMAL_FORCE MAX\", as in .CHK")
-      ->type_name("QUANTITY")
-      ->allow_extra_args(false);
-  app.add_flag("--condition", options.condition,
-               "the listing also gives the condition of the last linear system, and a bound on the error of its solution");
-  app.add_option("--until", options.until, "stop at this time; --restart continues from there")->type_name("TIME")->check(finite);
-  auto* restart =
-      app.add_option("--restart", options.restart, "continue these results, as .SAM RESTART does")->type_name("PREFIX");
-  app.add_option("--restart-at", options.restart_time, "continue from the last restart point up to this time")
-      ->type_name("TIME")
-      ->check(finite)
-      ->needs(restart);
-  app.add_option("deck", options.decks, "the decks to solve");
-
-  auto* check = app.add_subcommand("check", "read and verify a deck, and say what would be built");
-  check->add_option("deck", options.decks, "the decks")->required();
-  define(*check);
-  check->add_flag(
-      "--allow-user", options.allow_user,
-      "load user libraries that lie elsewhere than beside the deck or in ENGRANE_USER_PATH; this runs what is in them");
-  auto* help = app.add_subcommand("help", "explain a card, or list all cards");
-  std::vector<std::string> words;
-  help->add_option("card", words, "GEAR, HINGE, .SAM, .CLM FIX ..., or words to look for: friction, gravity");
-  auto* blank = app.add_subcommand("template", "print a card to fill in");
-  blank->add_option("card", options.card, "GEAR, HINGE, .SAM ...")->required();
-  auto* manual = app.add_subcommand("manual", "print the reference manual (Markdown)");
-  auto* schema = app.add_subcommand("schema", "print all cards as a JSON schema");
-  auto* completion = app.add_subcommand("completion", "print completions for bash: source <(engrane completion)");
-  auto* man = app.add_subcommand("man", "print the manual page: engrane man > engrane.1");
-  app.require_subcommand(0, 1);
-
-  const std::string usage = app.help();  // later it would be the help of the subcommand
+  Grammar grammar(options);
   try {
-    app.parse(own_words(argc, argv));
-    if (check->parsed()) options.task = Options::Task::check;
-    if (help->parsed()) options.task = Options::Task::help;
-    if (blank->parsed()) options.task = Options::Task::make_template;
-    if (manual->parsed()) options.task = Options::Task::manual;
-    if (schema->parsed()) options.task = Options::Task::schema;
-    if (man->parsed()) {
-      options.task = Options::Task::man;
-      options.usage = usage;
-    }
-    if (completion->parsed()) {
-      options.task = Options::Task::completion;
-      for (const CLI::App* task : app.get_subcommands({})) options.tasks.push_back(task->get_name());
-      // tasks of the launcher script
-      for (const char* task : {"plot", "spectrum", "orders", "picture", "animate", "export", "import", "sweep", "study",
-                               "inertia", "figures", "gallery", "demo", "test"})
-        options.tasks.emplace_back(task);
-      for (const CLI::Option* option : app.get_options())
-        if (!option->get_lnames().empty()) options.words.push_back("--" + option->get_lnames().front());
-    }
-    if (options.task == Options::Task::run && options.decks.empty())
-      throw CLI::RequiredError("a deck to solve, or one of check, help, template, manual, schema,");
-    for (const std::string& word : words) options.card += (options.card.empty() ? "" : " ") + word;
-    for (const std::string& text : definitions) add_definition(options, text);
-    if (options.task == Options::Task::run) check_prefixes(options);
+    grammar.app.parse(own_words(argc, argv));
+    grammar.finish();
     return options;
   } catch (const CLI::ParseError& e) {
     std::ostream silent(nullptr);
-    const int code = talk ? app.exit(e, std::cout, std::cerr) : app.exit(e, silent, silent);
+    const int code = talk ? grammar.app.exit(e, std::cout, std::cerr) : grammar.app.exit(e, silent, silent);
     status = code == 0 ? exit_status::fine : exit_status::wrong_deck;
     return std::nullopt;
   }

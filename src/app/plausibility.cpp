@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "deck/cards/initial_motion.hpp"
+#include "model/element_at_rest.hpp"
 #include "model/masses.hpp"
 #include "model/pulses.hpp"
 #include "model/solver_options.hpp"
@@ -158,7 +159,11 @@ std::optional<Pulse> missed_pulse(const Function& function, const deck::Stepping
 }
 
 /// Whether steps meet jumps of speeds with a force of their own, as those do that do not end there.
-bool has_steps_over_jumps(const Model& model) { return model.commands.analysis.type.is("DYNAMIC") && !has_steps_by_error(model); }
+bool has_steps_over_jumps(const Model& model) {
+  const SolverOptions options = solver_options(model);
+  return options.analysis == SolverOptions::Analysis::dynamics && !has_steps_by_error(model) &&
+         !options.ends_even_steps_at_corners();
+}
 
 /// "the drive of HINGE 1"
 std::string mover_of(const SpeedJump& jump, const Model& model) {
@@ -173,10 +178,39 @@ Diagnostic speed_warning(const SpeedJump& jump, const Model& model, double time,
                                  "grows as H falls",
                                  mover_of(jump, model), jump.change, model.units.label(jump.dimension), time,
                                  jump.dimension.length == 0 ? "moment" : "force"),
-          .hint = cure + ", or give TOL: such steps end there, and velocities change as in an impact"};
+          .hint = cure + ", or give TOL or SCHEME RADAU: such steps end there, and velocities change as in an impact"};
+}
+
+/// Whether a support, or the residual of an element in the reference configuration, differs from zero at `time`.
+bool acts_at(const Model& model, double time) {
+  for (const Support& support : model.supports)
+    if (support.value != 0 && (!support.function || support.function->at(time).f != 0)) return true;
+  const Vec3 gravity = model.gravity_at(time);
+  std::vector<double> r;
+  // loads are the last parts
+  return std::any_of(model.parts.rbegin(), model.parts.rend(), [&](const Model::Part& part) {
+    const ElementAtRest element(model, part);
+    State state = element.view();
+    state.time = time;
+    state.gravity = gravity;
+    r.assign(static_cast<std::size_t>(part.element->layout().slots()), 0.0);
+    part.element->residual(state, r);
+    return std::any_of(r.begin(), r.end(), [](double slot) { return slot != 0; });
+  });
 }
 
 }  // namespace
+
+void warn_of_no_load(const Model& model, Diagnostics& diagnostics) {
+  constexpr double most = 100;  // times to look at
+  if (!has_cells(model) || solver_options(model).moves()) return;
+  const deck::SteppingCard& stepping = model.commands.stepping;
+  const double span = stepping.end - stepping.start, steps = std::clamp(std::ceil(span / stepping.step), 1.0, most);
+  for (double i = steps; i > 0; --i)
+    if (acts_at(model, stepping.start + span * i / steps)) return;
+  diagnostics.warning({}, fmt::format("nothing acts on the model up to t = {:g}: all results are zero", stepping.end),
+                      "CHA, PRE, STRU ACC, TEMP or DEP of .CLM act, with values and functions NF that are not zero");
+}
 
 void warn_of_speed_jumps(const Model& model, Diagnostics& diagnostics) {
   if (!has_steps_over_jumps(model)) return;
@@ -215,11 +249,14 @@ void warn_of_idle_initial_values(const deck::Deck& deck, Diagnostics& diagnostic
 void warn_of_short_pulses(const deck::Deck& deck, const Model& model, Diagnostics& diagnostics) {
   const deck::SteppingCard& stepping = model.commands.stepping;
   if (has_steps_by_error(model) || !(stepping.end - stepping.start > stepping.step)) return;
+  std::vector<double> ends;  // of steps, between those at multiples of H
+  if (solver_options(model).ends_even_steps_at_corners()) ends = model.corners(stepping.start, stepping.end);
   for (const deck::Record& record : deck.records) {
     if (!record.get<deck::FunctionCard>()) continue;
     const auto function = model.functions.find(record.id);
     if (function == model.functions.end() || !model.of_time.contains(function->second.get())) continue;
-    if (const auto pulse = missed_pulse(*function->second, stepping))
+    const auto pulse = missed_pulse(*function->second, stepping);
+    if (pulse && !std::binary_search(ends.begin(), ends.end(), pulse->time))
       diagnostics.warning(record.location,
                           fmt::format("function {} is {:.4g} at {:.6g}, and the step from {:.6g} to {:.6g} passes over that",
                                       record.id, pulse->value, pulse->time, pulse->before, pulse->after),

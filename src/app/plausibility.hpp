@@ -28,4 +28,7 @@ std::optional<Diagnostic> speed_jump_warning(const Model& model, const Snapshot&
 /// Tells of initial values in a deck that continues another run: an error where they must hold, otherwise a warning.
 void warn_of_idle_initial_values(const deck::Deck& deck, Diagnostics& diagnostics);
 
+/// Warns about statics of a mesh on which nothing acts, at any of its steps: all results are zero.
+void warn_of_no_load(const Model& model, Diagnostics& diagnostics);
+
 }  // namespace engrane::app

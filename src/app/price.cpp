@@ -125,6 +125,94 @@ double restart_size(const output::ResultsLayout& layout, const ResultCounts& cou
   return arrays * array_bytes + groups * group_bytes + in_chunks * index_bytes + values_left * 8 * numbers;
 }
 
+/// Processor times in seconds of the parts of an iteration, and what its factors take.
+struct IterationCost {
+  struct Kind {
+    std::size_t elements = 0;
+    double tangents = 0;
+  };
+  std::map<std::string, Kind> kinds;  ///< of elements
+  double assembly = 0;                ///< of the tangent, with those of all elements
+  double residual = 0;
+  double solving = 0;       ///< assembly, factors and solution
+  double factor_bytes = 0;  ///< 0: not known
+  bool regular = true;      ///< the matrix has factors
+  bool factored = true;     ///< they were made, not only foreseen
+
+  double factors() const { return std::max(solving - assembly, 0.0); }
+  double whole() const { return residual + std::max(solving, assembly); }
+};
+
+/// Measures an iteration at `c`. Changes the assembler's scale and the solver's factors. Collective.
+IterationCost measure_iteration(const Model& model, solve::SolverContext& context, const Configuration& c) {
+  IterationCost cost;
+  const double h = model.commands.stepping.step;
+  Configuration here = c;
+  here.h = h;
+  const Weights weights = model.commands.analysis.type.is("DYNAMIC") ? Weights{1, 1 / h, 4 / (h * h)} : Weights{1, 0, 0};
+  std::map<std::string, std::vector<int>> kinds;
+  for (int p = 0; p < context.numbering.parts(); ++p) kinds[model.part(p).type].push_back(p);
+  for (const auto& [kind, parts] : kinds) {
+    // a hundred elements of a kind are representative
+    const std::span<const int> some = std::span(parts).first(std::min<std::size_t>(parts.size(), 100));
+    const double time = shortest([&] {
+      for (const int part : some) context.assembler.element_tangent(part, here, weights);
+    });
+    cost.kinds[kind] = {parts.size(), time * static_cast<double>(parts.size()) / static_cast<double>(some.size())};
+  }
+  context.assembler.choose_scale(here, weights, context.options.scale);
+  cost.assembly = shortest([&] { context.assembler.tangent(here, weights); });
+  Owned<Vec> right, solution;
+  *right.out() = context.assembler.new_vector();
+  *solution.out() = context.assembler.new_vector();
+  cost.residual = shortest([&] { context.assembler.residual(here, right); });
+  context.assembler.tangent(here, weights);
+  if (const auto foreseen = context.solver.foresee(); foreseen && foreseen->operations > most_operations) {
+    cost.factored = false;
+    cost.factor_bytes = foreseen->bytes;
+    cost.solving = cost.assembly + foreseen->operations / operations_per_second;
+  } else {
+    cost.solving = shortest([&] {
+      context.assembler.tangent(here, weights);
+      cost.regular = context.solver.solve(right, solution) && cost.regular;
+    });
+    cost.factor_bytes = context.solver.factor_bytes();
+  }
+  return cost;
+}
+
+std::string shares_table(const IterationCost& cost) {
+  output::Table table({{"of an iteration", output::Table::Align::left}, {"number"}, {"share, %"}});
+  const double whole = cost.whole();
+  double elements = 0;
+  for (const auto& [name, kind] : cost.kinds) elements += kind.tangents;
+  for (const auto& [name, kind] : cost.kinds) {
+    const double share = elements > 0 ? kind.tangents / elements * std::min(cost.assembly / whole, 1.0) : 0;
+    table.row({name, std::to_string(kind.elements), fmt::format("{:.0f}", 100 * share)});
+  }
+  table.row({"factors and solution", "", cost.regular ? fmt::format("{:.0f}", 100 * cost.factors() / whole) : "-"});
+  table.row({"residual", "", fmt::format("{:.0f}", 100 * cost.residual / whole)});
+  return table.text();
+}
+
+/// Time of a step and of a run of so many; 0: of one equilibrium.
+std::string describe_times(const IterationCost& cost, double steps) {
+  if (!cost.regular) return "\n  the matrix is singular in the first position: no time is foreseen\n";
+  const double step = 1.2 * 2 * cost.whole();
+  const std::string source = cost.factored
+                                 ? "as measured on this machine"
+                                 : fmt::format("if it makes {:.0f} operations in a nanosecond", operations_per_second / 1e9);
+  if (steps == 0) return fmt::format("\n  about {} for the one equilibrium, processor time {}\n", time_text(step), source);
+  return fmt::format("\n  about {} a step and {} for {:.0f} steps, at two iterations a step, processor time {}\n",
+                     time_text(step), time_text(step * steps), steps, source);
+}
+
+double nonzeros_of(const Assembler& assembler) {
+  MatInfo info{};
+  check_petsc(MatGetInfo(assembler.matrix(), MAT_LOCAL, &info));
+  return assembler.half() ? 2 * info.nz_used - assembler.numbering().equations() : info.nz_used;
+}
+
 }  // namespace
 
 double expected_result_bytes(const output::ResultsLayout& layout, const ResultCounts& counts) {
@@ -142,77 +230,21 @@ std::string describe_price(const Reading& reading, solve::SolverContext& context
   const Numbering& numbering = context.numbering;
   if (numbering.equations() == 0) return "";
   const deck::SteppingCard& stepping = model.commands.stepping;
-  Configuration here = c;
-  here.h = stepping.step;
-  const double h = stepping.step;
-  const Weights weights = model.commands.analysis.type.is("DYNAMIC") ? Weights{1, 1 / h, 4 / (h * h)} : Weights{1, 0, 0};
-
-  std::map<std::string, std::vector<int>> kinds;
-  for (int p = 0; p < numbering.parts(); ++p) kinds[model.part(p).type].push_back(p);
-  std::map<std::string, double> times;
-  double elements = 0;
-  for (const auto& [kind, parts] : kinds) {
-    // a hundred elements of a kind are representative
-    const std::span<const int> some = std::span(parts).first(std::min<std::size_t>(parts.size(), 100));
-    const double time = shortest([&] {
-      for (const int part : some) context.assembler.element_tangent(part, here, weights);
-    });
-    times[kind] = time * static_cast<double>(parts.size()) / static_cast<double>(some.size());
-    elements += times[kind];
-  }
-  context.assembler.choose_scale(here, weights, context.options.scale);
-  const double assembly = shortest([&] { context.assembler.tangent(here, weights); });
-  Owned<Vec> right, solution;
-  *right.out() = context.assembler.new_vector();
-  *solution.out() = context.assembler.new_vector();
-  const double residual = shortest([&] { context.assembler.residual(here, right); });
-  bool regular = true, factored = true;
-  double solving = 0, bytes = 0;
-  context.assembler.tangent(here, weights);
-  if (const auto foreseen = context.solver.foresee(); foreseen && foreseen->operations > most_operations) {
-    factored = false;
-    bytes = foreseen->bytes;
-    solving = assembly + foreseen->operations / operations_per_second;
-  } else {
-    solving = shortest([&] {
-      context.assembler.tangent(here, weights);
-      regular = context.solver.solve(right, solution) && regular;
-    });
-    bytes = context.solver.factor_bytes();
-  }
-  const double factors = std::max(solving - assembly, 0.0), iteration = residual + std::max(solving, assembly);
-
-  std::string text = "\nExpected cost\n";
-  output::Table table({{"of an iteration", output::Table::Align::left}, {"number"}, {"share, %"}});
-  for (const auto& [kind, time] : times) {
-    const double share = elements > 0 ? time / elements * std::min(assembly / iteration, 1.0) : 0;
-    table.row({kind, std::to_string(kinds[kind].size()), fmt::format("{:.0f}", 100 * share)});
-  }
-  table.row({"factors and solution", "", regular ? fmt::format("{:.0f}", 100 * factors / iteration) : "-"});
-  table.row({"residual", "", fmt::format("{:.0f}", 100 * residual / iteration)});
-  text += table.text();
-  MatInfo info{};
-  check_petsc(MatGetInfo(context.assembler.matrix(), MAT_LOCAL, &info));
-  const double whole = context.assembler.half() ? 2 * info.nz_used - numbering.equations() : info.nz_used;
-  text += fmt::format("  matrix: {} equations, {:.0f} nonzeros", numbering.equations(), whole);
-  if (regular && bytes > 0) text += fmt::format("; the factors take {}{}", factored ? "" : "about ", size_text(bytes));
-  const double steps = std::ceil((stepping.end - stepping.start) / h * (1 - 1e-9)), step = 1.2 * 2 * iteration;
-  const std::string source = factored ? "as measured on this machine"
-                                      : fmt::format("if it makes {:.0f} operations in a nanosecond", operations_per_second / 1e9);
-  if (regular && steps == 0)
-    text += fmt::format("\n  about {} for the one equilibrium, processor time {}\n", time_text(step), source);
-  else if (regular)
-    text += fmt::format("\n  about {} a step and {} for {:.0f} steps, at two iterations a step, processor time {}\n",
-                        time_text(step), time_text(step * steps), steps, source);
-  else
-    text += "\n  the matrix is singular in the first position: no time is foreseen\n";
+  const IterationCost cost = measure_iteration(model, context, c);
+  const double nonzeros = nonzeros_of(context.assembler);
+  std::string text = "\nExpected cost\n" + shares_table(cost);
+  text += fmt::format("  matrix: {} equations, {:.0f} nonzeros", numbering.equations(), nonzeros);
+  if (cost.regular && cost.factor_bytes > 0)
+    text += fmt::format("; the factors take {}{}", cost.factored ? "" : "about ", size_text(cost.factor_bytes));
+  const double steps = std::ceil((stepping.end - stepping.start) / stepping.step * (1 - 1e-9));
+  text += describe_times(cost, steps);
   const observe::Observer observer(context.assembler, moves(model), select_histories(model));
   const std::size_t samples = Schedule(stepping, model.commands.archive).expected_samples();
   const output::ResultsLayout layout = results_layout(reading, observer, samples);
   const double frame_step = model.commands.archive.field_step.value_or((stepping.end - stepping.start) / 200);
   const auto frames =
       steps == 0 ? 1 : static_cast<std::size_t>(std::min(steps, (stepping.end - stepping.start) / frame_step)) + 1;
-  ResultCounts counts{samples, frames, reading.is_one_solution() ? 0U : 1U, whole};
+  ResultCounts counts{samples, frames, reading.is_one_solution() ? 0U : 1U, nonzeros};
   if (const std::optional<double> interval = model.commands.archive.restart_step; interval && *interval > 0)
     counts.restarts += static_cast<std::size_t>((stepping.end - stepping.start) / *interval);
   return text + fmt::format("  results: {} channels, {} samples, {} frames: a file of about {}\n", layout.channel_count(),

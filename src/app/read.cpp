@@ -107,6 +107,7 @@ Reading read_deck(const std::string& path, const Wishes& wishes) {
   if (syntax_good && !building.has_errors()) {
     warn_of_unit_slips(reading.deck, reading.model, building);
     warn_of_mesh_slips(reading.deck, reading.model, building);
+    warn_of_no_load(reading.model, building);
   }
   // errors that only result from unreadable records are dropped; errors in records that were read are still reported
   for (const Diagnostic& d : building.all())

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "observe/field_channels.hpp"
 #include "observe/observer.hpp"
 
 namespace engrane::app {
@@ -43,13 +44,36 @@ void report_channel(std::string_view declared_by, const Location& where, const s
                     const std::vector<std::string>& names, Diagnostics& diagnostics) {
   const std::string near = nearest(wanted, names), list = joined(names);
   diagnostics.missing(declared_by, where, fmt::format("{} has no output {}", owner, wanted),
-                      near.empty() ? "it has " + list : fmt::format("did you mean {}? It has {}", near, list));
+                      names.empty()  ? "it has none"
+                      : near.empty() ? "it has " + list
+                                     : fmt::format("did you mean {}? It has {}", near, list));
 }
 
 std::vector<std::string> names_of(const std::vector<Channel>& channels) {
   std::vector<std::string> names;
   for (const Channel& channel : channels) names.push_back(channel.name);
   return names;
+}
+
+/// Names of the channels that the fields of an element give.
+std::vector<std::string> names_of_fields(const Model::Part& part) {
+  std::vector<std::string> names;
+  for (const auto& [channel, values] : observe::field_channels(*part.element, part.nodes.size())) names.push_back(channel.name);
+  return names;
+}
+
+bool gives(const Model::Part& part, const std::string& name) {
+  return observe::field_channel(*part.element, part.nodes.size(), name).has_value();
+}
+
+/// The number at the end of `STRESS:XX:9`, where an element has the component but not so many places; empty otherwise.
+std::string missing_place(const Model::Part& part, const std::string& name) {
+  const std::size_t colon = name.rfind(':');
+  if (colon == std::string::npos) return {};
+  const auto component = observe::field_channel(*part.element, part.nodes.size(), name.substr(0, colon));
+  if (!component) return {};
+  return fmt::format("{} has values at {} points: `{}:1` is the first", name.substr(0, colon), component->values.count,
+                     name.substr(0, colon));
 }
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
@@ -82,7 +106,13 @@ void check_check(const deck::Record& record, const deck::CheckCard& check, const
     }
     const Model::Part& part = model.part(found->second);
     owner = fmt::format("{} {}", part.type, *check.element);
+    if (gives(part, check.quantity)) return;
+    if (const std::string why = missing_place(part, check.quantity); !why.empty()) {
+      diagnostics.error(record.where("QUANTITY"), fmt::format("{} has no output {}", owner, check.quantity), why);
+      return;
+    }
     names = names_of(part.element->channels());
+    for (std::string& name : names_of_fields(part)) names.push_back(std::move(name));
   } else if (check.node) {
     const int node = model.node_index(*check.node);
     if (node <= 0) {
@@ -91,6 +121,8 @@ void check_check(const deck::Record& record, const deck::CheckCard& check, const
     }
     owner = fmt::format("node {}", *check.node);
     names = names_of(observe::node_channels(moves(model), is_supported(model, node)));
+    if (const Element* const of = observe::elements_averaged(model)[static_cast<std::size_t>(node)])
+      for (std::string& name : names_of(observe::averaged_channels(*of))) names.push_back(std::move(name));
   }
   if (!contains(names, check.quantity))
     report_channel(check.element ? std::string_view() : declares(check.quantity, model), record.where("QUANTITY"), owner,
@@ -131,18 +163,33 @@ void check_archive(const deck::Record& record, const deck::ArchiveCard& archive,
     for (const Named& channel : channels)
       if (!contains(names, channel.name)) names.push_back(channel.name);
   };
-  for (std::size_t p = 0; p < model.parts.size() && !archive.channels.empty(); ++p)
-    if (selection.all_parts || selection.parts.contains(static_cast<int>(p))) add(model.parts[p].element->channels());
-  for (std::size_t n = 1; n < model.nodes.size() && !archive.channels.empty(); ++n)
-    if (selection.all_nodes || selection.nodes.contains(static_cast<int>(n)))
-      add(observe::node_channels(moves(model), is_supported(model, static_cast<int>(n))));
+  // elements of a block share one vector of fields
+  std::set<const std::vector<Field>*> seen;
+  std::set<std::string> given;
+  for (std::size_t p = 0; p < model.parts.size() && !archive.channels.empty(); ++p) {
+    if (!selection.chooses(true, static_cast<int>(p))) continue;
+    const Model::Part& part = model.parts[p];
+    add(part.element->channels());
+    if (part.element->fields().empty() || !seen.insert(&part.element->fields()).second) continue;
+    for (const auto& [channel, values] : observe::field_channels(*part.element, part.nodes.size())) add({channel});
+    for (const std::string& channel : archive.channels)
+      if (gives(part, channel)) given.insert(channel);
+  }
+  std::vector<const Element*> averaged;
+  if (!archive.channels.empty()) averaged = observe::elements_averaged(model);
+  seen.clear();
+  for (std::size_t n = 1; n < model.nodes.size() && !archive.channels.empty(); ++n) {
+    if (!selection.chooses(false, static_cast<int>(n))) continue;
+    add(observe::node_channels(moves(model), is_supported(model, static_cast<int>(n))));
+    if (averaged[n] && seen.insert(&averaged[n]->fields()).second) add(observe::averaged_channels(*averaged[n]));
+  }
   // an element with a faulty record might have had it
   const auto declared_by = [&](const std::string& channel) {
     const std::string_view of_nodes = declares(channel, model);
     return of_nodes.empty() ? std::string_view(".MCE") : of_nodes;
   };
   for (const std::string& channel : archive.channels)
-    if (!contains(names, channel))
+    if (!contains(names, channel) && !given.contains(channel))
       report_channel(declared_by(channel), record.where("CHANNEL"), "what is selected", channel, names, diagnostics);
 }
 

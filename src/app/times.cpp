@@ -54,9 +54,9 @@ void Times::leave_out_the_rest() {
   for (const PetscClassId kind : {VEC_CLASSID, MAT_CLASSID, KSP_CLASSID, PC_CLASSID, SNES_CLASSID, SNESLINESEARCH_CLASSID})
     check_petsc(PetscLogEventDeactivateClass(kind));
   for (const Event* one : {&factorisations_, &solutions_}) {
-    PetscLogEvent told = -1;
-    check_petsc(PetscLogEventGetId(one->name, &told));
-    check_petsc(PetscLogEventActivate(told));
+    PetscLogEvent id = -1;
+    check_petsc(PetscLogEventGetId(one->name, &id));
+    check_petsc(PetscLogEventActivate(id));
   }
 }
 

@@ -41,13 +41,13 @@ void load_choice(const Snapshot& snapshot, SolverOptions& options) {
 }
 
 Verdict another_scheme(const Model& model, Trial trial, const std::string& why, int rank) {
-  if (rank == 0) std::cerr << "engrane: SCHEME RADAU fails here, again with CHUNG: " << terminal_text(why) << '\n';
+  if (rank == 0) std::cerr << "engrane: the run fails, again with SCHEME CHUNG: " << terminal_text(why) << '\n';
   SolverOptions& options = trial.options;
   const SolverOptions own = solver_options(model);
   options.family = SolverOptions::Family::chung;
   options.scheme_is_free = false;
   options.damping = 0.8;
-  options.precision = 1e-9;
+  options.precision = precision_of_other_scheme;
   options.tolerance = std::min(options.tolerance, own.tolerance);
   options.event_tolerance = std::min(options.event_tolerance, own.event_tolerance);
   return {exit_status::fine, std::move(trial)};

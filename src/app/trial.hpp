@@ -34,6 +34,9 @@ void save_choice(const Model& model, const SolverOptions& found, Snapshot& snaps
 /// Restores these options if the deck asks for the same ones.
 void load_choice(const Snapshot& snapshot, SolverOptions& options);
 
+/// PREC of the runs that another_scheme() makes.
+inline constexpr double precision_of_other_scheme = 1e-9;
+
 /// Switches to generalised-alpha where Radau fails, for instance at positions where the constraints lose rank. Starts with at
 /// most the setting's own TOL.
 Verdict another_scheme(const Model& model, Trial trial, const std::string& why, int rank);

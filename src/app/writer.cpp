@@ -8,6 +8,7 @@
 #include <iostream>
 #include <utility>
 
+#include "app/largest.hpp"
 #include "app/layout.hpp"
 #include "app/model_json.hpp"
 #include "app/plausibility.hpp"
@@ -71,7 +72,7 @@ Writer::Writer(const Reading& reading, const observe::Observer& observer, const 
       checks_(resolve_checks(reading.model, observer)),
       progress_(reading.model.commands.stepping.start, reading.model.commands.stepping.end,
                 options.quiet ? Progress::Style::silent : Progress::suitable()),
-      peaks_(results_.layout().channel_count()) {}
+      peaks_(results_.layout().history) {}
 
 void Writer::begin(const SolverContext& context, int ranks) {
   const Model& model = reading_.model;
@@ -211,7 +212,10 @@ void Writer::between(double time, const Schedule::Due& due) {
 
 void Writer::show(double time, bool regular, const Schedule::Due& due, bool corner) {
   if (!checks_.empty()) checks_.observe(time, observer_.values(), regular, corner);
-  if (due.sample || !checks_.empty()) follow(time);
+  if (due.sample || !checks_.empty())
+    follow(time, corner);
+  else if (corner)
+    peaks_.interrupt();
   if (due.sample) results_.sample(time, observer_.values());
   if (due.frame) results_.frame(time, frame_values(reading_.model, observer_));
 }
@@ -256,12 +260,15 @@ void Writer::list_results() {
   for (const Reaction& r : observer_.reactions()) reactions.push_back({reading_.model.node(r.node).id, r.force, r.torque});
   section("Reactions at the end", listing_reactions(reactions, units));
   section("Loads and reactions at the end", listed_loads(observer_, units));
+  section("Largest in the last fields", describe_largest(reading_.model, observer_));
   section("Forces of the ground", ground_.empty() ? "" : listing_ground(ground_, units));
+  peaks_.interrupt();  // the last ones
   const std::string peaks = listing_peaks(results_.layout().history, peaks_, units, most_listed_peaks);
-  section("Peaks",
-          peaks.empty()
-              ? ""
-              : "  largest magnitude of each channel, with its sign, over the instants observed; angles in radians\n\n" + peaks);
+  section("Peaks", peaks.empty() ? ""
+                                 : "  largest magnitude of each channel, with its sign, at the instants observed and, on cubics, "
+                                   "between them; angles in "
+                                   "radians\n\n" +
+                                       peaks);
   section("Not unique", marked_ > 0 ? listing_not_unique(results_.layout().history, observer_.not_unique()) : "");
   section("Linearised buckling", buckling_);
   section("Critical points", critical_);
@@ -359,8 +366,8 @@ GroundRow Writer::ground(double time) const {
   return row;
 }
 
-void Writer::follow(double time) {
-  peaks_.observe(time, observer_.values());
+void Writer::follow(double time, bool corner) {
+  peaks_.observe(time, observer_.values(), corner);
   const GroundRow now = ground(time);
   if (ground_.empty()) ground_.assign(3, now);
   ground_[0] = now;

@@ -73,7 +73,7 @@ class Writer {
   std::string stem() const;
   std::string wanted_table() const;
   /// Updates the resultants of the ground forces, and the peaks.
-  void follow(double time);
+  void follow(double time, bool corner);
   output::GroundRow ground(double time) const;
   void show(double time, bool regular, const Schedule::Due& due, bool corner = false);
   void note_events(const Configuration& c, const solve::StepReport& step);

@@ -61,7 +61,7 @@ void load_configuration(const Snapshot& snapshot, Configuration& configuration) 
     });
   for_each_array(configuration, [&](const char* name, std::vector<double>& values) { values = fitting(name, values.size()); });
   configuration.time = snapshot.number("configuration/time");
-  configuration.lead = snapshot.has("configuration/lead") ? snapshot.number("configuration/lead") : 0;
+  configuration.lead = snapshot.number("configuration/lead");
   configuration.h = snapshot.number("configuration/h");
 }
 

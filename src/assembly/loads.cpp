@@ -13,15 +13,34 @@ Vec3 place_of_force(const Model& model, const Configuration& c, int node) {
   return model.commands.analysis.displacements.is("SMALL") ? model.nodes[at].x : c.nodes[at].x;
 }
 
+namespace {
+
+/// Element::applied(), or the same from the residual: minus that of a load, and the part of it that is proportional to gravity.
+bool applied(const Element& element, State state, std::vector<double>& forces, std::vector<double>& scratch) {
+  if (element.applied(state, forces)) return true;
+  if (!element.is_load() && state.gravity.isZero(0)) return false;
+  element.residual(state, forces);
+  scratch.assign(forces.size(), 0.0);
+  if (!element.is_load()) {
+    state.gravity.setZero();
+    state.varying = nullptr;
+    element.residual(state, scratch);
+  }
+  for (std::size_t i = 0; i < forces.size(); ++i) forces[i] = scratch[i] - forces[i];
+  return true;
+}
+
+}  // namespace
+
 LoadSum sum_loads(const Assembler& assembler, const Configuration& c) {
   const Model& model = assembler.model();
-  std::vector<double> forces;
+  std::vector<double> forces, scratch;
   LoadSum sum;
   for (const int p : assembler.own_parts()) {
     const Model::Part& part = model.part(p);
     const Layout& layout = part.element->layout();
     forces.resize(static_cast<std::size_t>(layout.slots()));
-    if (!part.element->applied(assembler.view(p, c), forces)) continue;
+    if (!applied(*part.element, assembler.view(p, c), forces, scratch)) continue;
     std::size_t slot = 0;
     for (std::size_t i = 0; i < part.nodes.size(); ++i) {
       const auto node = static_cast<std::size_t>(part.nodes[i]);

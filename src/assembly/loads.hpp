@@ -8,7 +8,7 @@ namespace engrane {
 /// Point of application of a force on a node. With small displacements this is the reference position.
 Vec3 place_of_force(const Model& model, const Configuration& c, int node);
 
-/// Sum of the nodal loads, pressures and weight of the cells, in global components, and their moment about the origin. `work`
+/// Sum of all loads, pressures and weights, in global components, and their moment about the origin. `work`
 /// is the work u·F on the displacements from the reference configuration. It is twice the strain energy if everything is linear
 /// and no support moves.
 struct LoadSum {

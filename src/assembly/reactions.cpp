@@ -7,6 +7,8 @@
 #include <span>
 
 #include "assembly/loads.hpp"
+#include "math/linear_rotation.hpp"
+#include "model/outside_force.hpp"
 
 namespace engrane {
 
@@ -20,6 +22,7 @@ Reactions::Reactions(Assembler& assembler) : assembler_(assembler) {
   for (const int p : assembler.own_parts()) {
     const std::vector<int>& ends = model.part(p).nodes;
     if (std::find(ends.begin(), ends.end(), 0) != ends.end()) grounded_.push_back(p);
+    if (dynamic_cast<const OutsideForce*>(model.part(p).element.get())) outside_.push_back(p);
     for (const int node : model.part(p).nodes)
       if (node >= 0 && this->supported(node)) {
         parts_.push_back(p);
@@ -48,7 +51,7 @@ std::vector<Reaction> Reactions::at(const Configuration& c) {
     Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
     for (int i = 0; i < 6; ++i)
       if (numbering.equation(6 * nodes_[n] + i) < 0) (i < 3 ? force : moment)[i % 3] = sums[6 * n + static_cast<std::size_t>(i)];
-    reactions.push_back({nodes_[n], force, c.nodes[static_cast<std::size_t>(nodes_[n])].R * moment});
+    reactions.push_back({nodes_[n], force, moment_in_space(c.nodes[static_cast<std::size_t>(nodes_[n])].R, moment)});
   }
   return reactions;
 }
@@ -61,6 +64,25 @@ Resultant Reactions::resultant(const Configuration& c, const std::vector<Reactio
     // the ground is at the origin and does not rotate, so its slots are forces and moments about the origin
     for (std::size_t i = 0; i < slots.size(); ++i)
       if (slots[i] < 6) sum[static_cast<std::size_t>(slots[i])] += r[i];
+  }
+  for (const int part : outside_) {
+    const std::span<const int> slots = assembler_.numbering().part_slots(part);
+    const auto r = assembler_.element_residual(part, c);
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+      const int node = slots[i] / 6, component = slots[i] % 6;
+      if (node == 0 || static_cast<std::size_t>(node) >= place_.size()) continue;  // counted above, or a multiplier
+      Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+      if (component < 3) {
+        force[component] = -r[i];
+        moment = place_of_force(assembler_.model(), c, node).cross(force);
+      } else {
+        moment = -r[i] * c.nodes[static_cast<std::size_t>(node)].R.col(component - 3);
+      }
+      for (int k = 0; k < 3; ++k) {
+        sum[static_cast<std::size_t>(k)] += force[k];
+        sum[static_cast<std::size_t>(3 + k)] += moment[k];
+      }
+    }
   }
   MPI_Allreduce(MPI_IN_PLACE, sum.data(), 6, MPI_DOUBLE, MPI_SUM, assembler_.comm());
   Resultant all{{sum[0], sum[1], sum[2]}, {sum[3], sum[4], sum[5]}};

@@ -31,7 +31,8 @@ class Reactions {
   bool supported(int node) const;
   /// One reaction per supported node, on every rank; each rank evaluates its own elements. Collective.
   std::vector<Reaction> at(const Configuration& c);
-  /// Resultant of these reactions and of the forces of node 0 on the elements attached to it. On every rank. Collective.
+  /// Resultant of these reactions, of the forces of node 0 on the elements attached to it and of constraints that hold the model
+  /// from outside (OutsideForce). On every rank. Collective.
   Resultant resultant(const Configuration& c, const std::vector<Reaction>& reactions);
 
  private:
@@ -39,6 +40,7 @@ class Reactions {
   std::vector<int> nodes_;
   std::vector<int> parts_;     ///< parts of this rank with a supported node
   std::vector<int> grounded_;  ///< parts of this rank attached to node 0
+  std::vector<int> outside_;   ///< parts of this rank with an OutsideForce
   std::vector<int> place_;     ///< index of each node in nodes_, or -1
 };
 

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "math/linear_rotation.hpp"
+
 namespace engrane {
 
 Mat3 rotation_change(const Vec3& y) {
@@ -18,6 +20,7 @@ Mat3 rotation_change(const Vec3& y) {
 Mat3 rotation_exp(const Vec3& y) { return Mat3::Identity() + rotation_change(y); }
 
 Vec3 rotation_log(const Mat3& R) {
+  if (is_linear_rotation(R)) return linear_rotation_vector<double>(R);
   // via the quaternion: its vector part keeps full precision both near 0 and near π
   Eigen::Quaterniond q(R);
   // at half a turn both senses are valid, and rounding must not choose between them

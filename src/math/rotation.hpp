@@ -11,7 +11,7 @@ Mat3 rotation_exp(const Vec3& y);
 /// exp(y) − 1, each entry accurate relative to its own magnitude for small y.
 Mat3 rotation_change(const Vec3& y);
 
-/// Rotation vector of R, of length at most π; accurate to rounding near 0 and near π.
+/// Rotation vector of R, of length at most π; accurate to rounding near 0 and near π. Of a linear_rotation() its own vector.
 Vec3 rotation_log(const Mat3& R);
 
 /// Tangent operator: exp(y + dy) = exp(y) exp(T(y) dy) to first order (material, i.e. right, increments).

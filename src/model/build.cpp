@@ -16,6 +16,7 @@
 #include "model/coordinate_channels.hpp"
 #include "model/frames.hpp"
 #include "model/groups.hpp"
+#include "model/linear_statics.hpp"
 #include "model/model.hpp"
 #include "model/node_components.hpp"
 #include "model/node_load.hpp"
@@ -30,8 +31,13 @@ namespace {
 /// Holds the data shared by the passes over the records.
 class Builder {
  public:
-  Builder(const deck::Deck& deck, const std::vector<ElementType>& types, std::set<int> fixed, Diagnostics& diagnostics)
-      : deck_(deck), types_(types), diagnostics_(diagnostics), fixed_(std::move(fixed)), groups_(nodes_, diagnostics) {}
+  Builder(const deck::Deck& deck, const std::vector<ElementType>& types, const WrittenOut& short_forms, Diagnostics& diagnostics)
+      : deck_(short_forms.deck ? *short_forms.deck : deck),
+        types_(types),
+        diagnostics_(diagnostics),
+        fixed_(short_forms.named),
+        made_nodes_(short_forms.made),
+        groups_(nodes_, diagnostics) {}
 
   Model build() {
     for (const deck::Record& record : deck_.records) {
@@ -51,6 +57,7 @@ class Builder {
       if (record.get<deck::FunctionCard>()) add_function(record);
     for (const ElementRecord& element : elements_) place_node(element);
     for (const deck::Record& record : deck_.records) add_command(record);
+    warm_made_nodes();
     tell_codes(deck_.records, diagnostics_);
     settle_tolerance(deck_, model_.commands, diagnostics_);
     if (has_mesh_) model_.commands.analysis.displacements.tag = deck::has_small_displacements(deck_.records) ? "SMALL" : "LARGE";
@@ -73,6 +80,7 @@ class Builder {
       for (const int id : part.element->node_ids()) part.nodes.push_back(model_.node_index(id));
     check_supports(model_, support_locations_, diagnostics_);
     check_nodal_loads(model_, diagnostics_);
+    check_stops(model_, diagnostics_);
     check_initial_values(model_, initial_locations_, diagnostics_);
     model_.measure();
     settle_plane();
@@ -246,11 +254,20 @@ class Builder {
       }
   }
 
-  /// Makes the model plane if `.SAM PLANE` requests it.
+  /// Makes the model plane if `.SAM PLANE` requests it. So is one in statics unless PLANE NO is given, if springs and the like at
+  /// plane cells would otherwise leave motions along z that nothing resists.
   void settle_plane() {
     constexpr std::size_t most_faults = 8;
     const deck::Tagged& wish = model_.commands.analysis.plane;
-    if (wish.is("NO") || diagnostics_.has_errors()) return;
+    if (diagnostics_.has_errors()) return;
+    if (wish.is("NO")) {
+      const bool given = std::any_of(deck_.records.begin(), deck_.records.end(), [](const deck::Record& record) {
+        return record.get<deck::AnalysisCard>() && record.given("PLANE");
+      });
+      if (!given && model_.commands.analysis.type.is("STATIC") && asks_plane_cells_for_z(model_))
+        examine_plane(model_, 2, 1, model_.plane);
+      return;
+    }
     if (wish.is("AUTO")) {
       model_.plane = find_plane(model_);
       return;
@@ -279,19 +296,43 @@ class Builder {
   void add_temperature(const deck::Record& record, const deck::TemperatureCard& card) {
     const Function* f = function(record, card.function);
     for (const int id : groups_.resolve(record, card)) temperatures_[id] = {card.rise, f};
-    if (!has_mesh_)
-      diagnostics_.warning_once("TEMP", record.location, "the deck has no cells (.MAI): their temperatures have no effect");
+    if (!has_mesh_ && !names_material_)
+      diagnostics_.warning_once("TEMP", record.location,
+                                "no element of the deck has a material that could expand: temperatures have no effect");
+  }
+
+  /// Interpolates the temperatures of nodes that short forms have made.
+  void warm_made_nodes() {
+    for (const MadeNode& node : made_nodes_) {
+      const auto warmth = [this](int id) {
+        const auto found = temperatures_.find(id);
+        return found == temperatures_.end() ? Warmth{} : found->second;
+      };
+      const Warmth first = warmth(node.between[0]), second = warmth(node.between[1]);
+      if (first.rise == 0 && second.rise == 0) continue;
+      if (first.rise != 0 && second.rise != 0 && first.function != second.function)
+        diagnostics_.error(
+            node.location,
+            fmt::format("the temperatures of nodes {} and {} follow different functions, and between them it has a "
+                        "node of its own",
+                        node.between[0], node.between[1]),
+            "the same NF for both, or BEAMs with nodes of the deck");
+      temperatures_[node.id] = {first.rise + node.part * (second.rise - first.rise),
+                                first.rise != 0 ? first.function : second.function};
+    }
   }
 
   void add_loads() {
     int id = 0;
     for (const Model::Part& part : model_.parts) id = std::max(id, part.element->id());
+    const bool linear = is_linear_statics(model_);
     for (const Load& load : loads_)
-      model_.parts.push_back({make_node_load(++id, load.node, nodes_.at(load.node), load.force, load.moment, load.function),
-                              "CHA",
-                              load.record,
-                              load.record->location,
-                              {}});
+      model_.parts.push_back(
+          {make_node_load(++id, load.node, nodes_.at(load.node), load.force, load.moment, load.function, linear),
+           "CHA",
+           load.record,
+           load.record->location,
+           {}});
   }
 
   void add_initial(const deck::Record& record, const deck::InitialMotionCard& card) {
@@ -495,7 +536,8 @@ class Builder {
   const deck::Deck& deck_;
   const std::vector<ElementType>& types_;
   Diagnostics& diagnostics_;
-  std::set<int> fixed_;  ///< nodes whose positions expanded short forms depend on
+  const std::set<int>& fixed_;  ///< nodes whose positions expanded short forms depend on
+  const std::vector<MadeNode>& made_nodes_;
   NodePositions nodes_;
   std::unordered_map<const deck::Schema*, const ElementType*> types_by_schema_;
   std::vector<ElementRecord> elements_;                     ///< in the order of the deck
@@ -524,10 +566,9 @@ class Builder {
 }  // namespace
 
 Model build_model(const deck::Deck& deck, const std::vector<ElementType>& types, Diagnostics& diagnostics) {
-  std::set<int> fixed;
-  const std::shared_ptr<const deck::Deck> written_out = write_out(deck, types, fixed, diagnostics);
-  Model model = Builder(written_out ? *written_out : deck, types, std::move(fixed), diagnostics).build();
-  model.written_out = written_out;
+  const WrittenOut short_forms = write_out(deck, types, diagnostics);
+  Model model = Builder(deck, types, short_forms, diagnostics).build();
+  model.written_out = short_forms.deck;
   return model;
 }
 

@@ -18,6 +18,19 @@ void sort_and_unite(std::vector<int>& ids) {
 
 }  // namespace
 
+bool lies_in(const std::vector<double>& box, const Vec3& x) {
+  return x[0] >= box[0] && x[0] <= box[1] && x[1] >= box[2] && x[1] <= box[3] && x[2] >= box[4] && x[2] <= box[5];
+}
+
+void warn_of_no_effect(const deck::Record& record, const std::vector<std::string>& groups, const char* members,
+                       Diagnostics& diagnostics) {
+  const std::string_view key = record.schema->key();
+  const bool one = groups.size() == 1;
+  diagnostics.warning(record.where("GROUP"), fmt::format("{} \"{}\" {} no {}: this {} has no effect", one ? "group" : "groups",
+                                                         fmt::join(groups, "\", \""), one ? "has" : "have", members,
+                                                         key.empty() ? record.schema->name : key));
+}
+
 void NodeGroups::add(const deck::Record& record, const deck::GroupCard& card) {
   if (!card.kind.is("NODES")) {  // references to groups of elements and faces are resolved elsewhere
     const char* what = card.kind.is("FACES") ? "faces" : "elements";
@@ -67,7 +80,7 @@ std::vector<int> NodeGroups::nodes_in(const std::vector<double>& box) {
   std::vector<int> inside;
   for (auto i = first; i != by_x_.end() && at(*i).x[0] <= box[1]; ++i) {
     const auto& [id, x] = at(*i);
-    if (id != 0 && x[1] >= box[2] && x[1] <= box[3] && x[2] >= box[4] && x[2] <= box[5]) inside.push_back(id);
+    if (id != 0 && lies_in(box, x)) inside.push_back(id);
   }
   return inside;
 }
@@ -115,12 +128,7 @@ void NodeGroups::append(std::size_t group, std::vector<int>& ids) {
 
 /// Warns about a record that applies to no node, as its groups are empty. An archive without them keeps other histories.
 void NodeGroups::report_no_nodes(const deck::Record& record, const deck::NodeTarget& target) const {
-  if (record.get<deck::ArchiveCard>()) return;
-  const std::string_view key = record.schema->key();
-  const bool one = target.groups.size() == 1;
-  diagnostics_.warning(record.where("GROUP"), fmt::format("{} \"{}\" {} no nodes: this {} has no effect",
-                                                          one ? "group" : "groups", fmt::join(target.groups, "\", \""),
-                                                          one ? "has" : "have", key.empty() ? record.schema->name : key));
+  if (!record.get<deck::ArchiveCard>()) warn_of_no_effect(record, target.groups, "nodes", diagnostics_);
 }
 
 std::optional<std::size_t> NodeGroups::find(const std::string& name) const {

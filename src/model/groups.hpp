@@ -13,6 +13,13 @@
 
 namespace engrane {
 
+/// Whether a place lies in the box xmin xmax ymin ymax zmin zmax of `.SEL`, or on its faces.
+bool lies_in(const std::vector<double>& box, const Vec3& x);
+
+/// Warns that a record on these groups has no effect: `members`, such as "nodes", are in none of them.
+void warn_of_no_effect(const deck::Record& record, const std::vector<std::string>& groups, const char* members,
+                       Diagnostics& diagnostics);
+
 /// The named node sets of `.SEL`, and the resolution of node targets. A union refers to its groups and does not copy their
 /// nodes: nested unions cost as much as their declarations, not their contents.
 class NodeGroups {

@@ -101,6 +101,15 @@ std::vector<double> Model::joints(double from, double to) const {
   return {all.begin(), all.end()};
 }
 
+std::vector<double> Model::corners(double from, double to) const {
+  std::set<double> all;
+  for (const Function* function : of_time) {
+    const std::vector<double> found = function->corners(from, to, most_joints);
+    all.insert(found.begin(), found.end());
+  }
+  return {all.begin(), all.end()};
+}
+
 bool Model::jumps_at(double time) const {
   const double just_before = number_before(time);
   return std::any_of(of_time.begin(), of_time.end(), [&](const Function* function) {

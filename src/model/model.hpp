@@ -114,6 +114,8 @@ struct Model {
   /// Instants in (from, to), ascending, at which a function of time has a corner, or is less smooth than between them
   /// (Function::corners and joints).
   std::vector<double> joints(double from, double to) const;
+  /// The corners alone.
+  std::vector<double> corners(double from, double to) const;
   /// Whether any function of time jumps from the number before `time` to `time` itself.
   bool jumps_at(double time) const;
   /// Reference length for tolerances: diameter of the sphere around the mean of the nodes that elements use, each counted once

@@ -120,6 +120,35 @@ void check_nodal_loads(const Model& model, Diagnostics& diagnostics) {
   }
 }
 
+void check_stops(const Model& model, Diagnostics& diagnostics) {
+  const auto is_stop = [](const Model::Part& part) { return part.type == "STOP"; };
+  if (std::none_of(model.parts.begin(), model.parts.end(), is_stop)) return;
+  std::vector<bool> turns(model.nodes.size(), false), moves(turns);
+  for (const Model::Part& part : model.parts)
+    for (std::size_t i = 0; i < part.nodes.size() && !is_stop(part) && !part.is_nodal_load(); ++i) {
+      const auto node = static_cast<std::size_t>(part.nodes[i]);
+      moves[node] = true;
+      turns[node] = turns[node] || part.element->layout().needs_any(i, NodeNeed::rotation);
+    }
+  for (const Support& s : model.supports)
+    if (s.component > 2) turns[static_cast<std::size_t>(s.node)] = true;
+  for (const Model::Part& part : model.parts)
+    for (std::size_t i = 0; i < part.nodes.size() && is_stop(part); ++i) {
+      const int node = part.nodes[i];
+      const auto at = static_cast<std::size_t>(node);
+      if (node == 0 || turns[at] || !moves[at] || !part.element->layout().needs_any(i, NodeNeed::rotation)) continue;
+      const int id = model.node(node).id;
+      diagnostics.error(
+          part.location,
+          fmt::format("node {} of the stop has no rotations, as those of cells and masses at a point: it cannot hold "
+                      "a plane, an axis or a point off the node",
+                      id),
+          fmt::format("name first the node 0 or one with rotations, which MEAN_LINK and RIGID_LINK join to cells; or "
+                      "FIX the components 4 5 6 of node {}, whose plane then keeps its direction",
+                      id));
+    }
+}
+
 void check_initial_values(const Model& model, std::span<const Location> locations, Diagnostics& diagnostics) {
   if (model.initial.empty()) return;
   const std::vector<unsigned> needs = needs_of_nodes(model);

@@ -16,6 +16,9 @@ void check_supports(const Model& model, std::span<const Location> locations, Dia
 /// Reports nodal loads on components that their node does not have, once for a record, unless a support takes them.
 void check_nodal_loads(const Model& model, Diagnostics& diagnostics);
 
+/// Reports stops that need the rotation of a node to which only stops give one: nothing would hold it. `.CLM FIX` may.
+void check_stops(const Model& model, Diagnostics& diagnostics);
+
 /// Reports initial values of components that their node does not have, once for a record. `locations`: of Model::initial, in
 /// order.
 void check_initial_values(const Model& model, std::span<const Location> locations, Diagnostics& diagnostics);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "math/linear_rotation.hpp"
 #include "model/determined_channels.hpp"
 #include "model/templated_element.hpp"
 
@@ -88,8 +89,8 @@ class FixedLoad : public Base, public DeterminedChannels {
 
 class NodeLoad final : public FixedLoad<TemplatedElement<NodeLoad, 1, 6>> {
  public:
-  NodeLoad(int id, int node, const Vec3& at, const Vec3& force, const Vec3& moment, const Function* function)
-      : FixedLoad(id, at, force, moment, function) {
+  NodeLoad(int id, int node, const Vec3& at, const Vec3& force, const Vec3& moment, const Function* function, bool linear)
+      : FixedLoad(id, at, force, moment, function), linear_(linear) {
     Layout layout;
     layout.nodes = {node};
     layout.needs = {pushes() && turns() ? NodeNeed::both : turns() ? NodeNeed::rotation : NodeNeed::translation};
@@ -97,22 +98,30 @@ class NodeLoad final : public FixedLoad<TemplatedElement<NodeLoad, 1, 6>> {
   }
 
   template <class T>
-  void evaluate(const Motion<T, 1>& motion, const State&, Balance<T, 1>& balance) const {
+  void evaluate(const Motion<T, 1>& motion, const State& state, Balance<T, 1>& balance) const {
     const T size = factor_at(motion.time);
     balance.force(0, Vec3T<T>(force().template cast<T>() * (-size)));
     // a moment fixed in space, in components of the rotating node: its tangent is not symmetric, and the dual numbers provide
-    // it
-    balance.moment(0, Vec3T<T>(rotate_back(motion.node[0].R, Vec3T<T>(moment().template cast<T>() * (-size)))));
+    // it; in a linear model it does not depend on the rotation
+    const Vec3T<T> resisting = moment().template cast<T>() * (-size);
+    balance.moment(0, linear_ ? moment_on_node(state.nodes[0].R, resisting) : Vec3T<T>(rotate_back(motion.node[0].R, resisting)));
   }
+  bool is_linear() const override { return linear_; }
 
   bool applied(const State& state, std::span<double> forces) const override {
     const double size = factor(state.time);
-    const Vec3 push = size * force(), turn = size * (state.nodes[0].R.transpose() * moment());
+    // what R takes back into space, also in a linear model
+    const Mat3& R = state.nodes[0].R;
+    const Vec3 push = size * force(),
+               turn = size * ((is_linear_rotation(R) ? Mat3(R.inverse()) : Mat3(R.transpose())) * moment());
     double* out = forces.data();
     if (layout().needs_any(0, NodeNeed::translation)) out = std::copy_n(push.data(), 3, out);
     std::copy_n(turn.data(), 3, out);
     return true;
   }
+
+ private:
+  bool linear_;  ///< nodes do not turn under the moment
 };
 
 /// A force without a moment, which depends on time only.
@@ -148,9 +157,9 @@ class NodeForce final : public FixedLoad<Element> {
 }  // namespace
 
 std::unique_ptr<Element> make_node_load(int id, int node, const Vec3& at, const Vec3& force, const Vec3& moment,
-                                        const Function* function) {
+                                        const Function* function, bool linear) {
   if (moment.isZero(0) && !force.isZero(0)) return std::make_unique<NodeForce>(id, node, at, force, function);
-  return std::make_unique<NodeLoad>(id, node, at, force, moment, function);
+  return std::make_unique<NodeLoad>(id, node, at, force, moment, function, linear);
 }
 
 }  // namespace engrane

@@ -434,6 +434,20 @@ PlaneModel find_plane(const Model& model) {
   return best;
 }
 
+bool asks_plane_cells_for_z(const Model& model) {
+  const auto is_cell = [](const Model::Part& part) { return part.element->cell_shape() != CellShape::none; };
+  std::vector<bool> flat(model.nodes.size(), false);
+  for (const Model::Part& part : model.parts)
+    for (std::size_t i = 0; i < part.nodes.size() && is_cell(part); ++i)
+      if (!part.element->layout().has(i, 2)) flat[static_cast<std::size_t>(part.nodes[i])] = true;
+  return std::any_of(model.parts.begin(), model.parts.end(), [&](const Model::Part& part) {
+    if (is_cell(part)) return false;
+    for (std::size_t i = 0; i < part.nodes.size(); ++i)
+      if (flat[static_cast<std::size_t>(part.nodes[i])] && part.element->layout().has(i, 2)) return true;
+    return false;
+  });
+}
+
 std::vector<int> slots_out_of_plane(const Model& model, const PlaneModel& plane) {
   std::vector<bool> needed(6 * model.nodes.size(), false);
   for (const Model::Part& part : model.parts)

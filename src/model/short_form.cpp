@@ -58,6 +58,13 @@ void ShortForm::add(std::string_view card, int id, std::any data) {
   made_.push_back(std::move(made));
 }
 
+int ShortForm::add_node(const Vec3& place, std::array<int, 2> between, double part) {
+  const int id = free_.node++;
+  add(".NOE", id, deck::NodeCard{{place[0], place[1], place[2]}, 0});
+  made_nodes_.push_back({id, between, part, record.location});
+  return id;
+}
+
 bool ShortForm::has_numbers(int count) const {
   const int first = record.id, last = first + count - 1;
   const auto found = std::find_if(deck_.records.begin(), deck_.records.end(), [&](const deck::Record& other) {
@@ -72,8 +79,7 @@ bool ShortForm::has_numbers(int count) const {
   return false;
 }
 
-std::shared_ptr<const deck::Deck> write_out(const deck::Deck& deck, const std::vector<ElementType>& types, std::set<int>& named,
-                                            Diagnostics& diagnostics) {
+WrittenOut write_out(const deck::Deck& deck, const std::vector<ElementType>& types, Diagnostics& diagnostics) {
   std::map<const deck::Schema*, const ElementType*> forms;  // by schema: its type if it is a short form
   const auto form_of = [&](const deck::Record& record) {
     const auto [entry, fresh] = forms.try_emplace(record.schema, nullptr);
@@ -89,22 +95,24 @@ std::shared_ptr<const deck::Deck> write_out(const deck::Deck& deck, const std::v
     if (record.get<deck::NodeCard>()) free.node = std::max(free.node, record.id + 1);
     if (record.get<deck::ProfileCard>()) free.profile = std::max(free.profile, record.id + 1);
   }
-  if (!any) return nullptr;
+  if (!any) return {};
 
   const NodePositions nodes = positions_of(deck);
   const deck::Catalogue cards = catalogue(types);
+  WrittenOut result;
   const auto out = std::make_shared<deck::Deck>(deck);
   out->records.clear();
   for (const deck::Record& record : deck.records) {
     const ElementType* type = form_of(record);
     if (!type) {
       out->records.push_back(record);
-    } else if (has_nodes_named(record, nodes, diagnostics, &named)) {
-      ShortForm form(record, deck, cards, nodes, free, out->records, diagnostics);
+    } else if (has_nodes_named(record, nodes, diagnostics, &result.named)) {
+      ShortForm form(record, deck, cards, nodes, free, out->records, result.made, diagnostics);
       type->expand(form);
     }
   }
-  return out;
+  result.deck = out;
+  return result;
 }
 
 }  // namespace engrane

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <any>
+#include <array>
 #include <memory>
 #include <set>
 #include <string>
@@ -18,6 +19,15 @@ namespace engrane {
 bool has_nodes_named(const deck::Record& record, const NodePositions& nodes, Diagnostics& diagnostics,
                      std::set<int>* named = nullptr);
 
+/// A node made by a short form: where it stands between two nodes of the deck, as a fraction of the way. Temperatures in between
+/// are interpolated.
+struct MadeNode {
+  int id;
+  std::array<int, 2> between;
+  double part;
+  Location location;  ///< of the short form
+};
+
 /// A record of a short form during its expansion.
 class ShortForm {
  public:
@@ -27,8 +37,15 @@ class ShortForm {
   };
 
   ShortForm(const deck::Record& of, const deck::Deck& deck, const deck::Catalogue& cards, const NodePositions& places,
-            FreeNumbers& free, std::vector<deck::Record>& made, Diagnostics& faults)
-      : record(of), nodes(places), diagnostics(faults), deck_(deck), cards_(cards), free_(free), made_(made) {}
+            FreeNumbers& free, std::vector<deck::Record>& made, std::vector<MadeNode>& made_nodes, Diagnostics& faults)
+      : record(of),
+        nodes(places),
+        diagnostics(faults),
+        deck_(deck),
+        cards_(cards),
+        free_(free),
+        made_(made),
+        made_nodes_(made_nodes) {}
 
   const deck::Record& record;
   const NodePositions& nodes;  ///< of the deck, in the reference configuration
@@ -37,7 +54,8 @@ class ShortForm {
   const std::vector<deck::Record>& records() const { return deck_.records; }
   /// Adds a record of a card, such as `.NOE` or `BEAM`. Keywords that both cards have keep their locations in the deck.
   void add(std::string_view card, int id, std::any data);
-  int new_node() { return free_.node++; }
+  /// Adds a node at `place`, which stands where MadeNode says; returns its number.
+  int add_node(const Vec3& place, std::array<int, 2> between, double part);
   int new_profile() { return free_.profile++; }
   /// Whether `count` element numbers from that of the record on are free; otherwise reports an error.
   bool has_numbers(int count) const;
@@ -50,12 +68,16 @@ class ShortForm {
   const deck::Catalogue& cards_;
   FreeNumbers& free_;
   std::vector<deck::Record>& made_;
+  std::vector<MadeNode>& made_nodes_;
 };
 
-/// Returns the deck with its short forms expanded in place; nullptr if it has none. `nodes` receives the nodes that short forms
-/// name: they must not be moved, as the expansion depends on their positions.
-std::shared_ptr<const deck::Deck> write_out(const deck::Deck& deck, const std::vector<ElementType>& types, std::set<int>& nodes,
-                                            Diagnostics& diagnostics);
+/// A deck with its short forms expanded in place.
+struct WrittenOut {
+  std::shared_ptr<const deck::Deck> deck;  ///< nullptr if the deck has no short forms
+  std::set<int> named;                     ///< nodes that short forms name; the expansion depends on their positions
+  std::vector<MadeNode> made;
+};
+WrittenOut write_out(const deck::Deck& deck, const std::vector<ElementType>& types, Diagnostics& diagnostics);
 
 /// Connects a card with the function that expands it: the body of `x_type()` of a short form.
 template <class Data>

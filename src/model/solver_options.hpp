@@ -50,6 +50,8 @@ struct SolverOptions {
   double energy_error = 1;        ///< largest error of the energy balance, relative to EnergyBalance::handled(); 0: no limit
 
   bool moves() const { return analysis != Analysis::statics; }
+  /// Steps all have length H, but those of RADAU also end at corners of functions of time: across one they are of low order.
+  bool ends_even_steps_at_corners() const { return tolerance == 0 && analysis == Analysis::dynamics && family == Family::radau; }
 };
 
 /// Levels of `.SAM ACCURACY`: the target error of results relative to their ranges, the local tolerance with which nearly all

@@ -132,7 +132,7 @@ void EnergyLedger::integrate_over_inside(const Moment& end) {
   const double step = end.time - last_time_;
   const std::array<Energies, 4> powers{Energies{.dissipated = dissipated_power_, .external = external_power_},
                                        inside_[0].energies, inside_[1].energies, end.energies};
-  // continuous where the power of filling is not
+  // these integrands are continuous where the power of filling jumps
   const Fillings::At filled = last_fillings_;
   std::array<double, 4> swells{};
   for (std::size_t p = 1; p < swells.size(); ++p)
@@ -217,7 +217,7 @@ void EnergyLedger::load(const Snapshot& snapshot) {
   if (smooth_ && snapshot.has("observe/powers")) powers_.load(snapshot, "observe/powers");
   Configuration before = assembler_.numbering().reference_configuration(last_time_);
   load_configuration(snapshot, before);
-  // the loads may differ from those of the run before: the energy of a weight that has come is not the work of anything
+  // loads may have been added since the earlier run: their potential energy is not the work of anything
   last_potential_ = total_energies(assembler_, before).potential;
   const double come = last_potential_ - balance_.potential;
   balance_.potential = last_potential_;

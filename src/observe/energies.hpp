@@ -15,7 +15,7 @@
 namespace engrane::observe {
 
 /// A load step between two equilibria that no path of stable equilibria joins: the structure snapped through or fell over in
-/// between, and lost energy that statics do not show. If it has won energy from nothing, it cannot have come to the second.
+/// between, and lost energy that statics do not show. If it gained energy instead, it cannot have reached the second by itself.
 struct Jump {
   double begin = 0, end = 0;  ///< times of the equilibria
   double lost = 0;            ///< energy; negative: won; 0: there was no jump

@@ -2,6 +2,7 @@
 #include "observe/fields.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
 #include <utility>
@@ -46,11 +47,19 @@ const std::vector<NodalKind>& nodal_kinds() {
 
 constexpr const char* stress = "STRESS";
 
-/// Element field that is computed from the averaged stress when it is given at nodes.
+bool begins_with(const std::vector<std::string>& all, const std::vector<std::string>& first) {
+  return first.empty() == all.empty() && first.size() <= all.size() && std::equal(first.begin(), first.end(), all.begin());
+}
+
+}  // namespace
+
+/// Element field that is computed from the stress where that is averaged at nodes, or has more components than the element gives.
 struct DerivedKind {
   const char* name;
   void (*value)(std::span<const double> stress, double* out);
 };
+
+namespace {
 
 const std::vector<DerivedKind>& derived_kinds() {
   static const std::vector<DerivedKind> kinds = {
@@ -64,7 +73,7 @@ const std::vector<DerivedKind>& derived_kinds() {
 
 ElementFields::ElementFields(Assembler& assembler) : assembler_(assembler), points_(assembler.model()), averages_(points_) {
   const Model& model = assembler.model();
-  std::map<std::string, std::size_t> known;
+  const std::map<std::string, std::size_t> known = merge_declarations();
   // elements of a block share one vector of fields, so its address identifies the declarations
   std::map<std::pair<const std::vector<Field>*, std::size_t>, int> kinds;
   kind_of_part_.reserve(model.parts.size());
@@ -75,7 +84,7 @@ ElementFields::ElementFields(Assembler& assembler) : assembler_(assembler), poin
     kind_of_part_.push_back(kind->second);
     for (const Use& use : kinds_[static_cast<std::size_t>(kind->second)].uses) fields_[use.field].place_count += use.places;
     for (const Field& field : declared)
-      if (field.averaged && field.width() == fields_[known.at(field.name)].width()) averages_.declare(field, part);
+      if (field.averaged) averages_.declare(field, fields_[known.at(field.name)].components, part);
   }
   // fields with one value per part need no second list
   for (std::size_t f = 0; f < fields_.size(); ++f)
@@ -95,16 +104,62 @@ ElementFields::ElementFields(Assembler& assembler) : assembler_(assembler), poin
   fields_.push_back({{"ERROR", dimension::energy, "strain energy of the estimated error of the stress"}, {}, {}, {}, 0});
 }
 
-ElementFields::Kind ElementFields::make_kind(const Model::Part& part, std::map<std::string, std::size_t>& known) {
+std::map<std::string, std::size_t> ElementFields::merge_declarations() {
+  std::map<std::string, std::size_t> known;
+  std::map<std::string, std::size_t> components;  // of all fields of the elements that declare a field, the most so far
+  const std::vector<Field>* last = nullptr;
+  for (const Model::Part& part : assembler_.model().parts) {
+    const std::vector<Field>& declared = part.element->fields();
+    if (std::exchange(last, &declared) == &declared) continue;
+    std::size_t all = 0;
+    for (const Field& field : declared) all += field.width();
+    for (const Field& field : declared) {
+      const auto [at, is_new] = known.try_emplace(field.name, fields_.size());
+      if (is_new) fields_.emplace_back();
+      if (std::size_t& most = components[field.name]; all > most) {
+        most = all;
+        fields_[at->second] = {field, field.components, {}, {}, 0};
+      }
+    }
+  }
+  return known;
+}
+
+ElementFields::Kind ElementFields::make_kind(const Model::Part& part, const std::map<std::string, std::size_t>& known) {
   Kind kind;
+  std::optional<Use> of_stress;
   for (const Field& field : part.element->fields()) {
-    const auto [at, is_new] = known.try_emplace(field.name, fields_.size());
-    if (is_new) fields_.push_back({field, field.components, {}, {}, 0});
-    const std::size_t size = field.size(part.nodes.size()), width = field.width();
-    if (width == fields_[at->second].width()) kind.uses.push_back({at->second, kind.size, size / width, field.averaged});
+    const std::size_t at = known.at(field.name), size = field.size(part.nodes.size()), width = field.width();
+    const auto derived = std::find_if(derived_kinds().begin(), derived_kinds().end(),
+                                      [&](const DerivedKind& one) { return one.name == field.name; });
+    if (begins_with(fields_[at].components, field.components)) {
+      kind.uses.push_back({at, kind.size, size / width, field.averaged, width});
+      if (field.name == stress) of_stress = kind.uses.back();
+    } else if (derived != derived_kinds().end() && of_stress) {
+      kind.uses.push_back({at, of_stress->first, of_stress->places, false, of_stress->width, &*derived});
+    }
     kind.size += size;
   }
   return kind;
+}
+
+std::span<const double> ElementFields::rows_of(const Use& use, std::span<const double> values) {
+  const std::size_t width = fields_[use.field].width();
+  const auto own = values.subspan(use.first, use.places * use.width);
+  if (use.width == width && !use.derived) return own;
+  scratch_.assign(use.places * width, 0.0);
+  for (std::size_t place = 0; place < use.places; ++place) {
+    const auto given = own.subspan(place * use.width, use.width);
+    double* row = scratch_.data() + place * width;
+    if (!use.derived) {
+      std::copy(given.begin(), given.end(), row);
+      continue;
+    }
+    std::array<double, 6> all{};  // the components that a plane stress lacks are zero
+    std::copy(given.begin(), given.end(), all.begin());
+    use.derived->value(all, row);
+  }
+  return scratch_;
 }
 
 std::vector<int> ElementFields::place_parts(std::size_t field) const {
@@ -142,7 +197,7 @@ void ElementFields::evaluate_own(const Configuration& c) {
       const std::size_t first = std::exchange(next[use.field], next[use.field] + use.places);
       if (!is_own) continue;
       ElementField& field = fields_[use.field];
-      const auto own = std::span<const double>(values).subspan(use.first, use.places * field.width());
+      const std::span<const double> own = rows_of(use, values);
       double* row = field.rows.data() + p * field.width();
       for (std::size_t place = 0; place < use.places; ++place)
         for (std::size_t k = 0; k < field.width(); ++k)
@@ -197,6 +252,11 @@ void ElementFields::evaluate(const Configuration& c) {
         std::fill_n(field.rows.begin() + static_cast<std::ptrdiff_t>(p * field.width()), field.width(),
                     std::numeric_limits<double>::quiet_NaN());
   }
+}
+
+bool is_averaged(const Field& field) {
+  const auto& kinds = derived_kinds();
+  return field.averaged || std::any_of(kinds.begin(), kinds.end(), [&](const auto& kind) { return field.name == kind.name; });
 }
 
 std::vector<Named> nodal_field_names(bool moves) {

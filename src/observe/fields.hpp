@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -42,8 +43,10 @@ struct StressError {
   double relative() const { return difference > 0 ? std::sqrt(difference / (energy + difference)) : 0; }
 };
 
-/// The fields that the elements of a model declare. Fields with the same name are merged; the first declaration determines the
-/// components.
+struct DerivedKind;
+
+/// The fields that the elements of a model declare. Fields with the same name are merged: the declaration of the elements with
+/// most components counts. Stresses and strains of plane cells beside solids have zeros in the components that plane cells lack.
 class ElementFields {
  public:
   explicit ElementFields(Assembler& assembler);
@@ -74,17 +77,23 @@ class ElementFields {
  private:
   /// One field of a kind of part.
   struct Use {
-    std::size_t field = 0;   ///< index into fields_
-    std::size_t first = 0;   ///< index of its first value among all values of the part
-    std::size_t places = 1;  ///< number of nodes or points
-    bool averaged = false;   ///< also averaged at nodes
+    std::size_t field = 0;                 ///< index into fields_
+    std::size_t first = 0;                 ///< index of its first value among all values of the part
+    std::size_t places = 1;                ///< number of nodes or points
+    bool averaged = false;                 ///< also averaged at nodes
+    std::size_t width = 1;                 ///< number of components declared; the first of those of the field
+    const DerivedKind* derived = nullptr;  ///< the values are computed from those at `first`, a stress
   };
   /// Parts with the same declarations and the same number of nodes.
   struct Kind {
     std::vector<Use> uses;
     std::size_t size = 0;  ///< number of all values of such a part
   };
-  Kind make_kind(const Model::Part& part, std::map<std::string, std::size_t>& known);
+  Kind make_kind(const Model::Part& part, const std::map<std::string, std::size_t>& known);
+  /// Fills fields_ with the merged declarations; returns their indices.
+  std::map<std::string, std::size_t> merge_declarations();
+  /// Values of one use as rows of its field, from all values of a part. Valid until the next call.
+  std::span<const double> rows_of(const Use& use, std::span<const double> values);
   void evaluate_own(const Configuration& c);
   void estimate_errors(const Configuration& c);
   bool has(std::size_t field, std::size_t part) const;
@@ -98,7 +107,11 @@ class ElementFields {
   std::optional<std::size_t> error_;  ///< index into fields_ of the estimated error, which no element declares
   std::size_t stress_ = 0;            ///< index into fields_ of the stress whose error it is
   std::vector<double> energies_;      ///< energy and difference of StressError
+  std::vector<double> scratch_;
 };
+
+/// Whether ElementFields::averages() has this field of an element with a section.
+bool is_averaged(const Field& field);
 
 /// Names and units of the fields over the nodes. Velocities are included if `moves`.
 std::vector<Named> nodal_field_names(bool moves);

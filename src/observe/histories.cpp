@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -19,8 +20,7 @@ void add_vector(std::vector<Channel>& channels, const char* prefix, Dimension d,
 
 /// Indices of the selected channels of one owner.
 std::vector<int> selected_places(const Selection& selection, bool of_part, int index, const std::vector<Channel>& channels) {
-  const bool chosen =
-      of_part ? selection.all_parts || selection.parts.contains(index) : selection.all_nodes || selection.nodes.contains(index);
+  const bool chosen = selection.chooses(of_part, index);
   std::vector<int> places;
   for (std::size_t i = 0; i < channels.size(); ++i) {
     const std::string& name = channels[i].name;
@@ -29,6 +29,15 @@ std::vector<int> selected_places(const Selection& selection, bool of_part, int i
       places.push_back(static_cast<int>(i));
   }
   return places;
+}
+
+/// Names of single channels of a part or node.
+std::vector<std::string> singles_of(const Selection& selection, bool of_part, int index) {
+  std::vector<std::string> names;
+  for (auto at = selection.singles.lower_bound({of_part, index, ""});
+       at != selection.singles.end() && at->of_part == of_part && at->index == index; ++at)
+    names.push_back(at->channel);
+  return names;
 }
 
 /// Text that is equal for channels that may share a column heading.
@@ -56,8 +65,9 @@ std::vector<Channel> node_channels(bool moves, bool supported) {
   return c;
 }
 
-Histories::Histories(Assembler& assembler, const Reactions& reactions, bool moves, const Selection& selection)
-    : assembler_(assembler), supports_(reactions), moves_(moves) {
+Histories::Histories(Assembler& assembler, const Reactions& reactions, ElementFields& fields, bool moves,
+                     const Selection& selection)
+    : assembler_(assembler), supports_(reactions), fields_(fields), moves_(moves) {
   add_parts(selection);
   part_tables_ = tables_.size();
   add_nodes(selection);
@@ -65,6 +75,22 @@ Histories::Histories(Assembler& assembler, const Reactions& reactions, bool move
   values_.assign(assembler.rank() == 0 ? columns_ : 0, 0.0);
   find_known();
   plan_gathering();
+}
+
+std::vector<FieldChannel> Histories::selected_fields(const Selection& selection, int part) const {
+  const Model::Part& owner = assembler_.model().part(part);
+  const Element& element = *owner.element;
+  if (element.fields().empty()) return {};
+  // elements with channels of their own have fields beside them, for pictures; cells have nothing else
+  if (selection.channels.empty() && selection.parts.contains(part) && element.channels().empty())
+    return field_channels(element, owner.nodes.size());
+  std::set<std::string> names;
+  if (selection.chooses(true, part)) names = selection.channels;
+  for (std::string& name : singles_of(selection, true, part)) names.insert(std::move(name));
+  std::vector<FieldChannel> found;
+  for (const std::string& name : names)
+    if (auto one = field_channel(element, owner.nodes.size(), name)) found.push_back(std::move(*one));
+  return found;
 }
 
 void Histories::add_parts(const Selection& selection) {
@@ -75,14 +101,21 @@ void Histories::add_parts(const Selection& selection) {
     const Model::Part& part = model.parts[p];
     const std::vector<Channel>& channels = part.element->channels();
     std::vector<int> places = selected_places(selection, true, static_cast<int>(p), channels);
-    if (places.empty()) continue;
+    const std::vector<FieldChannel> fields = selected_fields(selection, static_cast<int>(p));
+    if (places.empty() && fields.empty()) continue;
     std::string names;
     for (const int place : places) names += signature(place, channels[static_cast<std::size_t>(place)]);
+    for (const auto& [channel, values] : fields)
+      names += signature(static_cast<int>(values.first), channel) + fmt::format("{} {}\n", values.count, values.stride);
     Table& table = kinds[part.type][names];
     table.ids.push_back(part.element->id());
     table.owners.push_back(static_cast<int>(p));
     if (table.channels.empty()) {
       for (const int place : places) table.channels.push_back(channels[static_cast<std::size_t>(place)]);
+      for (const auto& [channel, values] : fields) {
+        table.channels.push_back(channel);
+        table.of_fields.push_back(values);
+      }
       table.type = part.type;
       table.places = std::move(places);
     }
@@ -96,20 +129,48 @@ void Histories::add_parts(const Selection& selection) {
   }
 }
 
+std::vector<std::pair<Channel, AverageValue>> Histories::selected_averages(const Selection& selection, int node,
+                                                                           const Element* of) const {
+  std::set<std::string> names;
+  if (selection.chooses(false, node)) names = selection.channels;
+  for (std::string& name : singles_of(selection, false, node)) names.insert(std::move(name));
+  std::vector<std::pair<Channel, AverageValue>> found;
+  const std::vector<AveragedField>& averages = fields_.averages();
+  if (names.empty() || !of) return found;
+  for (Channel& channel : averaged_channels(*of)) {
+    if (!names.contains(channel.name)) continue;
+    for (std::size_t f = 0; f < averages.size(); ++f) {
+      const std::vector<std::string> known = component_names(averages[f].named.name, averages[f].components);
+      const auto at = std::find(known.begin(), known.end(), channel.name);
+      if (at == known.end()) continue;
+      found.emplace_back(std::move(channel), AverageValue{f, static_cast<std::size_t>(at - known.begin())});
+      break;
+    }
+  }
+  return found;
+}
+
 void Histories::add_nodes(const Selection& selection) {
   const Model& model = assembler_.model();
   const std::vector<Channel> channels[2] = {node_channels(moves_, false), node_channels(moves_, true)};
-  std::map<std::vector<int>, Table> variants;
+  const std::vector<const Element*> averaged = elements_averaged(model);
+  std::map<std::pair<std::vector<int>, std::vector<AverageValue>>, Table> variants;
   for (std::size_t n = 1; n < model.nodes.size(); ++n) {
     const auto& all = channels[supports_.supported(static_cast<int>(n)) ? 1 : 0];
     const std::vector<int> places = selected_places(selection, false, static_cast<int>(n), all);
-    if (places.empty()) continue;
-    Table& table = variants[places];
+    const auto averages = selected_averages(selection, static_cast<int>(n), averaged[n]);
+    if (places.empty() && averages.empty()) continue;
+    averages_ = averages_ || !averages.empty();
+    std::vector<AverageValue> values;
+    for (const auto& [channel, value] : averages) values.push_back(value);
+    Table& table = variants[{places, values}];
     table.ids.push_back(model.nodes[n].id);
     table.owners.push_back(static_cast<int>(n));
     if (!table.channels.empty()) continue;
     for (const int place : places) table.channels.push_back(all[static_cast<std::size_t>(place)]);
+    for (const auto& [channel, value] : averages) table.channels.push_back(channel);
     table.places = places;
+    table.of_averages = std::move(values);
   }
   int number = 0;
   for (auto& [chosen, table] : variants) {
@@ -135,6 +196,7 @@ void Histories::find_known() {
           }
         ++column;
       }
+      column += tables_[t].of_fields.size();
     }
 }
 
@@ -183,7 +245,14 @@ const std::vector<double>& Histories::evaluate(const Configuration& c, const std
       element_.resize(element.channels().size());
       element.observe(assembler_.view(part, c), element_);
       for (const int place : tables_[t].places) own_.push_back(element_[static_cast<std::size_t>(place)]);
+      if (tables_[t].of_fields.empty()) continue;
+      std::size_t size = 0;
+      for (const Field& field : element.fields()) size += field.size(model.part(part).nodes.size());
+      of_fields_.assign(size, 0.0);
+      element.evaluate_fields(assembler_.view(part, c), of_fields_);
+      for (const FieldValues& values : tables_[t].of_fields) own_.push_back(values.largest(of_fields_));
     }
+  if (averages_) fields_.evaluate(c);
   MPI_Gatherv(own_.data(), static_cast<int>(own_.size()), MPI_DOUBLE, gathered_.data(), counts_.data(), displacements_.data(),
               MPI_DOUBLE, 0, assembler_.comm());
   if (assembler_.rank() != 0) return values_;
@@ -195,6 +264,20 @@ const std::vector<double>& Histories::evaluate(const Configuration& c, const std
 const std::vector<double>& Histories::evaluate_nodes(const Configuration& c) {
   put_nodes(c, {});
   return values_;
+}
+
+double Histories::average(const AverageValue& value, int node) const {
+  const AveragedField& field = fields_.averages()[value.field];
+  if (field.rows.empty()) return 0;  // not evaluated yet
+  const auto at = [&](std::size_t point) { return field.rows[point * field.width() + value.component]; };
+  const std::vector<int>& copies = fields_.points().copies();
+  double found = at(static_cast<std::size_t>(node) - 1);
+  for (std::size_t i = 0; i < copies.size(); ++i) {
+    if (copies[i] != node) continue;
+    const double other = at(assembler_.model().nodes.size() - 1 + i);
+    if (std::isnan(found) || std::abs(other) > std::abs(found)) found = other;
+  }
+  return found;
 }
 
 void Histories::put_nodes(const Configuration& c, const std::vector<Reaction>& reactions) {
@@ -223,6 +306,7 @@ void Histories::put_nodes(const Configuration& c, const std::vector<Reaction>& r
         all.resize(all.size() + 6, 0.0);
       }
       for (const int place : tables_[t].places) *out++ = all[static_cast<std::size_t>(place)];
+      for (const AverageValue& value : tables_[t].of_averages) *out++ = average(value, index);
     }
 }
 

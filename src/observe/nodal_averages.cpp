@@ -26,19 +26,18 @@ int SectionPoints::at(const Model::Part& part, std::size_t node) const {
   return further_.at({index, section});
 }
 
-NodalAverages::Sum* NodalAverages::find(const std::string& name, std::size_t width, const Model::Part& part) {
+NodalAverages::Sum* NodalAverages::find(const std::string& name, const Model::Part& part) {
   if (part.element->section() < 0) return nullptr;
   const auto found = std::find_if(sums_.begin(), sums_.end(), [&](const Sum& sum) { return sum.name == name; });
-  return found == sums_.end() || found->width != width ? nullptr : &*found;
+  return found == sums_.end() ? nullptr : &*found;
 }
 
-void NodalAverages::declare(const Field& field, const Model::Part& part) {
-  const std::size_t width = field.width();
+void NodalAverages::declare(const Field& field, const std::vector<std::string>& components, const Model::Part& part) {
   if (std::none_of(sums_.begin(), sums_.end(), [&](const Sum& sum) { return sum.name == field.name; })) {
-    sums_.push_back({field.name, width, std::vector<int>(points_.size(), 0), {}});
-    fields_.push_back({field, field.components, {}});
+    sums_.push_back({field.name, std::max<std::size_t>(components.size(), 1), std::vector<int>(points_.size(), 0), {}});
+    fields_.push_back({field, components, {}});
   }
-  Sum* sum = find(field.name, width, part);
+  Sum* sum = find(field.name, part);
   if (!sum) return;
   for (std::size_t i = 0; i < part.nodes.size(); ++i) ++sum->counts[static_cast<std::size_t>(points_.at(part, i))];
 }
@@ -58,7 +57,7 @@ void NodalAverages::add(const std::string& name, const Model::Part& part, std::s
   if (part.element->section() < 0) return;
   const Eigen::MatrixXd& to_nodes = *part.element->extrapolation();
   const auto width = static_cast<Eigen::Index>(values.size()) / to_nodes.cols();
-  Sum* sum = find(name, static_cast<std::size_t>(width), part);
+  Sum* sum = find(name, part);
   if (!sum) return;
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   scratch_.noalias() = to_nodes * Eigen::Map<const Rows>(values.data(), to_nodes.cols(), width);
@@ -96,11 +95,11 @@ std::span<const double> NodalAverages::at_nodes(const std::string& name, const M
   std::size_t width = 0;
   for (const Field& field : part.element->fields())
     if (field.name == name) width = field.width();
-  const Sum* sum = find(name, width, part);
-  if (!sum) return {};
+  const Sum* sum = find(name, part);
+  if (!sum || width == 0) return {};
   gathered_.clear();
   for (std::size_t i = 0; i < part.nodes.size(); ++i) {
-    const auto row = sum->values.begin() + points_.at(part, i) * static_cast<std::ptrdiff_t>(width);
+    const auto row = sum->values.begin() + points_.at(part, i) * static_cast<std::ptrdiff_t>(sum->width);
     gathered_.insert(gathered_.end(), row, row + static_cast<std::ptrdiff_t>(width));
   }
   return gathered_;

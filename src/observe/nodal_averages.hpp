@@ -49,9 +49,9 @@ class NodalAverages {
  public:
   explicit NodalAverages(const SectionPoints& points) : points_(points) {}
 
-  /// Declares a field of a part that is to be averaged. All fields must be declared before values are added. The first
-  /// declaration of a name determines its components; fields with other components are ignored.
-  void declare(const Field& field, const Model::Part& part);
+  /// Declares a field of a part that is to be averaged, with these components, of which its own are the first. All fields must be
+  /// declared before values are added.
+  void declare(const Field& field, const std::vector<std::string>& components, const Model::Part& part);
   /// Adds a field derived from the average of the field `from`: `value` computes it from the components of that field.
   void derive(const std::string& from, AveragedField field, void (*value)(std::span<const double> from, double* out));
 
@@ -63,7 +63,7 @@ class NodalAverages {
   void add(const std::string& name, const Model::Part& part, std::span<const double> values);
   /// Sums over all ranks and divides by the number of elements. Collective.
   void finish(MPI_Comm comm);
-  /// Averages at the nodes of a part, node by node, on any rank; empty if the part does not have the field.
+  /// Averages of the part's own components at its nodes, node by node, on any rank; empty if the part does not have the field.
   std::span<const double> at_nodes(const std::string& name, const Model::Part& part);
 
   /// Passes the rows of each field to `replace`, which may modify them.
@@ -84,7 +84,7 @@ class NodalAverages {
     std::size_t field;
     void (*value)(std::span<const double> from, double* out);
   };
-  Sum* find(const std::string& name, std::size_t width, const Model::Part& part);
+  Sum* find(const std::string& name, const Model::Part& part);
 
   const SectionPoints& points_;
   std::vector<Sum> sums_;              ///< sums for the first fields of fields_

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <set>
 #include <utility>
 
@@ -14,27 +12,6 @@
 #include "model/masses.hpp"
 
 namespace engrane::observe {
-
-namespace {
-
-/// Maximum number of interpolation points for values between two instants.
-constexpr std::size_t most_ends = 6;
-/// Largest sum of the magnitudes of their weights: 3.1 for six points evenly spread, 4.8 within a step of Radau IIA that is twice
-/// as long as the last one.
-constexpr double most_weight = 5;
-/// Parts of the range of the points: by which a value of the polynomial through all of them may differ from that of the order
-/// that this leaves, and by which the latter may leave the range.
-constexpr double trusted = 0.5, overshoot = 0.5;
-/// A size less than this part of those around counts as zero: a corner so near makes no larger difference.
-constexpr double no_size = 1e-6;
-
-/// Angles may jump by a turn, and velocities are as accurate as the motion itself. Lengths are left out: they may be small
-/// differences of large ones, such as coordinates.
-bool of_motion(const Dimension& d) {
-  return d == dimension::angle || d == dimension::angular_velocity || d == dimension::velocity;
-}
-
-}  // namespace
 
 std::vector<Channel> run_channels(const Model& model, bool moves) {
   const bool cells = has_cells(model);
@@ -48,7 +25,8 @@ std::vector<Channel> run_channels(const Model& model, bool moves) {
   if (moves) channels.push_back({"DISSIPATED_ENERGY", dimension::energy, "energy lost to damping"});
   channels.push_back({"ENERGY_ERROR", dimension::energy, "what the energy balance fails to close by"});
   for (const char* name : {"GROUND_FORCE_X", "GROUND_FORCE_Y", "GROUND_FORCE_Z"})
-    channels.push_back({name, dimension::force, "sum of what supports and the elements on node 0 exert on the model, global"});
+    channels.push_back(
+        {name, dimension::force, "sum of what supports, .LIA and the elements on node 0 exert on the model, global"});
   for (const char* name : {"GROUND_MOMENT_X", "GROUND_MOMENT_Y", "GROUND_MOMENT_Z"})
     channels.push_back({name, dimension::moment, "its moment about the origin, global"});
   if (model.commands.path) {
@@ -66,7 +44,7 @@ std::vector<Channel> run_channels(const Model& model, bool moves) {
   channels.push_back({"STRAIN_ENERGY", dimension::energy, "energy that the cells hold as strain"});
   channels.push_back({"LOAD_WORK", dimension::energy, "work u·F of these loads on the displacements from the reference"});
   for (const char* name : {"LOAD_FORCE_X", "LOAD_FORCE_Y", "LOAD_FORCE_Z"})
-    channels.push_back({name, dimension::force, "sum of loads on nodes, pressures and the weight of cells, global"});
+    channels.push_back({name, dimension::force, "sum of loads, pressures and weight, global"});
   for (const char* name : {"LOAD_MOMENT_X", "LOAD_MOMENT_Y", "LOAD_MOMENT_Z"})
     channels.push_back({name, dimension::moment, "their moment about the origin, global"});
   channels.push_back({"MASS", dimension::mass, "mass of all elements"});
@@ -78,15 +56,14 @@ Observer::Observer(Assembler& assembler, bool moves, const Selection& selection)
     : assembler_(assembler),
       moves_(moves),
       supports_(assembler),
-      histories_(assembler, supports_, moves, selection),
+      element_fields_(assembler),
+      histories_(assembler, supports_, element_fields_, moves, selection),
       ledger_(assembler, supports_, moves),
       run_channels_(observe::run_channels(assembler.model(), moves)),
       values_(histories_.columns() + run_channels_.size(), 0.0),
-      element_fields_(assembler),
       buckling_times_(
           assembler.model().commands.buckling ? static_cast<std::size_t>(assembler.model().commands.buckling->modes) : 0, 0.0),
-      cells_(has_cells(assembler.model())),
-      ends_(most_ends, std::numeric_limits<double>::infinity()) {
+      cells_(has_cells(assembler.model())) {
   if (!cells_) return;
   for (const int p : assembler.own_parts()) mass_ += mass_of(assembler.model(), assembler.model().part(p));
   MPI_Allreduce(MPI_IN_PLACE, &mass_, 1, MPI_DOUBLE, MPI_SUM, assembler.comm());
@@ -116,22 +93,20 @@ int Observer::channel(const std::string& owner, const std::string& name) const {
 
 void Observer::observe(const Configuration& c, const Step& step, bool histories, bool fields) {
   last_reactions_ = supports_.at(c);
-  // nothing continues across an event; a line leads through a drift, and the points of the next step begin at its end
+  // nothing continues across an event; a drift is interpolated linearly, and the points of the next step begin at its end
   const bool inside = !inside_.empty(), begins = step.events > 0 && !inside;
   if (step.events > 0) ledger_.forget();
   ledger_.add(c, last_reactions_, step.impulse);
   keep_inside();
-  if (step.events > 0) event_ = true;
+  if (step.events > 0 && interpolation_) interpolation_->begin_anew();
   events_ += static_cast<double>(step.events);
   if (fields) find_fields(c);
-  if (histories || keeps_ends_) evaluate_histories(c, step);
-  if (!keeps_ends_) return;
-  keep(c.time);
-  if (!inside && !begins) steady_ = 0;
-  if (begins) event_ = true;
-  if (!step.corner) return;
-  event_ = true;
-  ledger_.begin_anew();
+  if (histories || interpolation_) evaluate_histories(c, step);
+  if (!interpolation_) return;
+  interpolation_->add(c.time, values_, sources_);
+  if (!inside && !begins) interpolation_->doubt();
+  if (begins || step.corner) interpolation_->begin_anew();
+  if (step.corner) ledger_.begin_anew();
 }
 
 void Observer::observe_inside(const Configuration& c) {
@@ -147,32 +122,13 @@ void Observer::keep_inside() {
     values_.swap(inside_[i].values);
     sources_.swap(inside_[i].sources);
     if (assembler_.rank() == 0) put_energies(balances[i]);
-    keep(inside_[i].time);
+    interpolation_->add(inside_[i].time, values_, sources_);
   }
   inside_.clear();
 }
 
-void Observer::keep(double time) {
-  if (event_ || ends_.empty()) {
-    const bool before = std::exchange(event_, false);
-    ends_.clear();
-    if (before && !end_.empty()) ends_.add(end_time_, end_);
-    steady_ = most_ends;
-  }
-  int jump = 0;
-  if (!end_.empty())
-    for (std::size_t i = 0; i < angles_.size(); ++i)
-      if (angles_[i] != 0 && std::abs(values_[i] - end_[i]) > std::numbers::pi) jump = 1;
-  MPI_Bcast(&jump, 1, MPI_INT, 0, assembler_.comm());  // only rank 0 has the values
-  steady_ = jump != 0 ? 0 : steady_ + 1;
-  end_ = values_;
-  end_.insert(end_.end(), sources_.begin(), sources_.end());
-  end_time_ = time;
-  ends_.add(time, end_);
-}
-
 void Observer::evaluate_histories(const Configuration& c, const Step& step) {
-  if (keeps_ends_) sources_ = histories_.sources(c);
+  if (interpolation_) sources_ = histories_.sources(c);
   const std::vector<double>& values = histories_.evaluate(c, last_reactions_);
   const Resultant ground = supports_.resultant(c, last_reactions_);
   const LoadSum loads = cells_ ? sum_loads(assembler_, c) : LoadSum{};
@@ -205,92 +161,28 @@ std::ptrdiff_t Observer::put_energies(const EnergyBalance& e) {
 }
 
 void Observer::keep_ends() {
-  keeps_ends_ = true;
   ledger_.integrate_smoothly();
-  channels_ = channels();
-  const auto mark = [this](const Named& named) { angles_.push_back(named.dimension == dimension::angle ? 1 : 0); };
-  for (std::size_t t = 0; t < histories_.part_tables(); ++t)
-    for (std::size_t owner = 0; owner < tables()[t].owners.size(); ++owner)
-      for (const Named& channel : tables()[t].channels) mark(channel);
+  std::size_t element_values = 0;
+  for (std::size_t t = 0; t < histories_.part_tables(); ++t) element_values += tables()[t].columns();
+  interpolation_.emplace(channels(), element_values, assembler_.comm());
 }
 
 void Observer::between(const Configuration& c, bool motion) {
-  // all interpolation points are close together, and no angle jumps between them
-  const bool smooth = steady_ >= most_ends;
+  const bool steady = interpolation_->steady();
   const std::vector<double>* moved = nullptr;
-  if (!smooth)
+  if (!steady)
     moved = &histories_.evaluate(c, supports_.at(c));
   else if (assembler_.rank() == 0)
     moved = &histories_.evaluate_nodes(c);
   if (assembler_.rank() != 0) return;
-  std::vector<double> all(end_.size());
-  ends_.at(c.time, 0, all);
-  std::copy_n(all.begin(), values_.size(), values_.begin());
-  for (std::size_t i = smooth ? histories_.node_columns() : 0; i < moved->size(); ++i)
-    if (of_motion(channels_[i]->dimension) && (motion || !smooth)) values_[i] = (*moved)[i];
-  const auto [before, after, part] = ends_.around(c.time);
-  const std::vector<double> weights = ends_.weights(c.time, 0), calm = ends_.weights(c.time, 0, most_weight);
-  const bool astray = calm.size() < weights.size();
-  for (std::size_t i = 0; i < values_.size(); ++i) {
-    const Channel& channel = *channels_[i];
-    switch (channel.course) {
-      case Channel::Course::smooth:
-        if (astray && !(of_motion(channel.dimension) && (motion || !smooth)))
-          values_[i] = calmed(i, weights.size(), weighted(i, calm), values_[i]);
-        break;
-      case Channel::Course::size:
-        values_[i] = size_between(i, weights, values_[i]);
-        if (astray) values_[i] = calmed(i, weights.size(), size_between(i, calm, weighted(i, calm)), values_[i]);
-        break;
-      case Channel::Course::ratio:
-        values_[i] = before[i] + part * (after[i] - before[i]);
-        break;
-      case Channel::Course::state:
-        values_[i] = part < 0.5 ? before[i] : after[i];
-        break;
-      case Channel::Course::step:
-        values_[i] = end_[i];
-        break;
-    }
-    values_[i] = std::clamp(values_[i], channel.low, channel.high);
-  }
-  put_known(c, smooth, std::span(all).subspan(values_.size()));
+  const std::span<const double> taken = motion || !steady ? std::span(*moved) : std::span<const double>();
+  put_known(c, steady, interpolation_->at(c.time, taken, steady ? histories_.node_columns() : 0, values_));
 }
 
-double Observer::weighted(std::size_t column, std::span<const double> weights) const {
-  double sum = 0;
-  for (std::size_t p = 0; p < weights.size(); ++p) sum += weights[p] * ends_.values(p)[column];
-  return sum;
-}
-
-double Observer::calmed(std::size_t column, std::size_t points, double calm, double value) const {
-  double least = ends_.values(0)[column], most = least;
-  for (std::size_t p = 1; p < points; ++p) {
-    least = std::min(least, ends_.values(p)[column]);
-    most = std::max(most, ends_.values(p)[column]);
-  }
-  const double range = most - least;
-  if (std::abs(value - calm) <= trusted * range) return value;
-  return std::clamp(calm, least - overshoot * range, most + overshoot * range);
-}
-
-double Observer::size_between(std::size_t column, std::span<const double> weights, double smooth) const {
-  double square = 0, largest = 0;
-  for (std::size_t p = 0; p < weights.size(); ++p) {
-    const double size = ends_.values(p)[column];
-    square += weights[p] * size * size;
-    largest = std::max(largest, size);
-  }
-  // what grows from zero has no corner on its way, and of a square of high order polynomials see little
-  const double none = no_size * largest;
-  const bool grows = ends_.values(0)[column] <= none || ends_.values(weights.size() - 1)[column] <= none;
-  return grows ? std::max(smooth, 0.0) : std::sqrt(std::max(square, 0.0));
-}
-
-void Observer::put_known(const Configuration& c, bool smooth, std::span<const double> sources) {
+void Observer::put_known(const Configuration& c, bool steady, std::span<const double> sources) {
   const std::vector<Histories::Known>& known = histories_.known();
   if (known.empty()) return;
-  const std::vector<double>* moved = smooth ? nullptr : &histories_.sources(c);
+  const std::vector<double>* moved = steady ? nullptr : &histories_.sources(c);
   for (const Histories::Known& one : known) {
     const bool from_motion = moved && of_motion(one.of_source);
     values_[one.column] = one.at(c.load_time(), from_motion ? std::span<const double>(*moved) : sources);
@@ -298,7 +190,8 @@ void Observer::put_known(const Configuration& c, bool smooth, std::span<const do
 }
 
 void Observer::back_to_end() {
-  if (!end_.empty()) std::copy_n(end_.begin(), values_.size(), values_.begin());
+  const std::span<const double> end = interpolation_->latest();
+  std::copy(end.begin(), end.end(), values_.begin());
 }
 
 void Observer::find_fields(const Configuration& c) {
@@ -364,29 +257,19 @@ void Observer::save(Snapshot& snapshot) const {
   snapshot.put("observe/not_unique", std::move(columns));
   snapshot.put("observe/buckling_times", buckling_times_);
   snapshot.put("observe/columns", static_cast<double>(values_.size()));
-  if (!keeps_ends_) return;
-  snapshot.put("observe/end", end_);
-  snapshot.put("observe/points", {end_time_, static_cast<double>(steady_), event_ ? 1.0 : 0.0});
-  ends_.save(snapshot, "observe/ends");
+  if (interpolation_) interpolation_->save(snapshot);
 }
 
 void Observer::load(const Snapshot& snapshot) {
   ledger_.load(snapshot);
   events_ = snapshot.number("observe/events");
-  if (snapshot.has("observe/buckling_times") && snapshot.array("observe/buckling_times").size() == buckling_times_.size())
-    buckling_times_ = snapshot.array("observe/buckling_times");
+  if (const auto& times = snapshot.array("observe/buckling_times"); times.size() == buckling_times_.size())
+    buckling_times_ = times;
   not_unique_.clear();
   // with other histories the columns have another meaning; non-unique ones will be found again
   if (snapshot.number("observe/columns") != static_cast<double>(values_.size())) return;
   for (const double column : snapshot.array("observe/not_unique")) not_unique_.push_back(static_cast<int>(column));
-  if (!snapshot.has("observe/points") || snapshot.array("observe/end").size() != channels_.size() + histories_.source_count())
-    return;
-  end_ = snapshot.array("observe/end");
-  const std::vector<double>& points = snapshot.array("observe/points");
-  end_time_ = points.at(0);
-  steady_ = static_cast<std::size_t>(points.at(1));
-  event_ = points.at(2) != 0;
-  ends_.load(snapshot, "observe/ends");
+  if (interpolation_) interpolation_->load(snapshot, histories_.source_count());
 }
 
 }  // namespace engrane::observe

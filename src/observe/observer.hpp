@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "assembly/reactions.hpp"
-#include "math/extrapolation.hpp"
 #include "observe/energies.hpp"
 #include "observe/fields.hpp"
 #include "observe/histories.hpp"
+#include "observe/history_interpolation.hpp"
 
 namespace engrane::observe {
 
@@ -102,12 +102,12 @@ class Observer {
   Assembler& assembler_;
   bool moves_;
   Reactions supports_;
+  ElementFields element_fields_;
   Histories histories_;
   EnergyLedger ledger_;
   std::vector<Channel> run_channels_;
   std::vector<double> values_;
   std::vector<NodalField> fields_;
-  ElementFields element_fields_;
   std::vector<Reaction> last_reactions_;
   std::vector<int> not_unique_;
   double events_ = 0;
@@ -120,33 +120,18 @@ class Observer {
   std::ptrdiff_t put_energies(const EnergyBalance& e);
   /// Adds the values of inside_ to the interpolation points, with the work that is known now.
   void keep_inside();
-  /// The channel of each value: how it is interpolated between two step ends.
+  /// The channel of each value.
   std::vector<const Channel*> channels() const;
-  /// Adds values() and sources_ to the interpolation points.
-  void keep(double time);
-  /// The polynomial with these weights of the interpolation points.
-  double weighted(std::size_t column, std::span<const double> weights) const;
-  /// A value between instants by all `points`, or, where that goes astray, the one by a few of them that is `calm`.
-  double calmed(std::size_t column, std::size_t points, double calm, double value) const;
-  /// A Channel::Course::size between instants. `weights`: of the interpolation points; `smooth`: the polynomial through the
-  /// sizes.
-  double size_between(std::size_t column, std::span<const double> weights, double smooth) const;
-  /// Sets the values of Histories::known(), for between(). `sources`: the interpolated sources.
-  void put_known(const Configuration& c, bool smooth, std::span<const double> sources);
-  bool keeps_ends_ = false;
-  std::vector<const Channel*> channels_;  ///< channels(), once keep_ends() has been called
-  std::vector<char> angles_;              ///< for each value of elements: it is an angle, which may jump by a turn
-  std::vector<double> sources_;           ///< of the values of Histories::known(), which are found from them between two instants
-  std::vector<double> end_;               ///< values at the latest interpolation point, at end_time_, and then their sources
-  double end_time_ = 0;
-  Extrapolation ends_;
-  std::size_t steady_ = 0;  ///< consecutive points without a jump of an angle between them, and close enough to detect one
+  /// Sets the values of Histories::known(), for between(). `steady`: no angle jumps around `c`; `sources`: the
+  /// interpolated sources.
+  void put_known(const Configuration& c, bool steady, std::span<const double> sources);
+  std::optional<HistoryInterpolation> interpolation_;  ///< once keep_ends() has been called
+  std::vector<double> sources_;  ///< of the values of Histories::known(), which are found from them between two instants
   struct Inside {
     double time;
     std::vector<double> values, sources;
   };
   std::vector<Inside> inside_;  ///< interpolation points inside the current step
-  bool event_ = false;          ///< interpolation must restart at the latest point, as after an event or a corner
 };
 
 /// Channels of the whole model.

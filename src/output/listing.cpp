@@ -145,7 +145,7 @@ std::string listing_loads(const LoadRows& rows, const UnitSystem& units) {
   };
   add("loads", rows.load_force, rows.load_moment);
   add("reactions", rows.reaction_force, rows.reaction_moment);
-  return "  loads on nodes, pressures and the weight of cells; reactions of supports and of node 0\n\n" + table.text() +
+  return "  loads, pressures and weight; reactions of supports, of .LIA and of node 0\n\n" + table.text() +
          fmt::format("\n  work of the loads on the displacements (total potential energy): {} {}\n", shown(rows.work),
                      units.label(dimension::energy));
 }

@@ -8,10 +8,11 @@
 
 #include "base/snapshot.hpp"
 #include "output/results_layout.hpp"
+#include "output/stretch.hpp"
 
 namespace engrane::output {
 
-/// Largest magnitude of each channel so far, and its time.
+/// Largest magnitude of each channel so far, and its time. Between samples the channels are cubics, as in a Window.
 class Peaks {
  public:
   /// The value with its sign.
@@ -19,9 +20,13 @@ class Peaks {
     double value = 0;
     double time = 0;
   };
-  explicit Peaks(std::size_t channels) : peaks_(channels) {}
+  /// Of the channels of these tables, which must outlive this object.
+  explicit Peaks(const std::vector<HistoryTable>& tables);
 
-  void observe(double time, std::span<const double> values);
+  /// `ends`: at an event or a corner, across which nothing is interpolated.
+  void observe(double time, std::span<const double> values, bool ends);
+  /// There is one between the last sample and the next.
+  void interrupt();
   const Peak& of(std::size_t channel) const { return peaks_[channel]; }
 
   void save(Snapshot& snapshot) const;
@@ -29,8 +34,14 @@ class Peaks {
   bool load(const Snapshot& snapshot);
 
  private:
+  /// Looks for peaks in the interval behind sample `i` of the stretch.
+  void look_between(std::size_t i);
+
+  std::vector<const Channel*> channels_;
   std::vector<Peak> peaks_;
+  Stretch<std::vector<double>> stretch_;
   bool started_ = false;
+  bool interrupted_ = false;
 };
 
 /// Table of peaks for the listing: channels of all elements and of the run. Channels that were always zero are left out; rows

@@ -5,12 +5,14 @@
 #include <span>
 #include <vector>
 
+#include "output/extreme.hpp"
+#include "output/stretch.hpp"
+
 namespace engrane::output {
 
 /// Extremes, mean and root mean square over time of a sampled channel, within a window of time.
 ///
 /// Between samples the channel is the cubic through the four samples around, or through fewer where a smooth stretch has no more.
-/// Stretches end at events and corners, and where intervals differ a hundredfold, as those of a sample beside the end of a step.
 /// Errors of the integrals are of fourth order where the channel is smooth. An extreme between samples is only found where the
 /// parabolas through three of them have it, too: at a corner or jump of which nothing is known none is invented.
 class Window {
@@ -32,19 +34,14 @@ class Window {
   void load(std::span<const double> saved);
 
  private:
-  struct Sample {
-    double time, value;
-  };
   void see(double value);
   /// Takes the interval behind sample `i` of the stretch.
   void take(std::size_t i);
-  /// Takes the intervals left, and begins with the last sample.
-  void end_stretch();
+  std::vector<Sample> samples() const;
 
   double from_, to_;
-  std::vector<Sample> stretch_;  ///< the last samples of the stretch, at most four
-  std::size_t taken_ = 0;        ///< intervals of these that have been taken
-  double last_ = 0;              ///< latest value
+  Stretch<double> stretch_;
+  double last_ = 0;  ///< latest value
   double least_, largest_;
   double area_ = 0, squares_ = 0, covered_ = 0;
 };

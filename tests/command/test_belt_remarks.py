@@ -4,29 +4,21 @@
 import json
 
 import pytest
+from small_decks import DISCS
 
-DECK = """.NOE
- I 1 X 0 0 0
- I 2 X 0.5 0 0
-.MCE
- I 1 HINGE N 0 1 AXIS 0 0 1
- I 2 HINGE N 0 2 AXIS 0 0 1
- I 3 INERTIA N 1 M 1 J 0.02
- I 4 INERTIA N 2 M 1 J 0.08
- I 5 BELT N 1 2 AXIS 0 0 1 R 0.05 0.1 {belt}
- I 6 TORQUE N 1 AXIS 0 0 1 V {torque}
-.SAM TYPE DYNAMIC {sam}
-.SUB TF 0.5 H 0.005
-{check}.FIN 1
-"""
 ELASTIC = "K 20000 C 20 PRELOAD 100 MU 0.3"
 RIGID = "PRELOAD 100 MU 0.3"
 
 
+def deck(belt, torque, analysis, check=""):
+    link = f"BELT N 1 2 AXIS 0 0 1 R 0.05 0.1 {belt}"
+    rest = f".SAM TYPE {analysis}\n.SUB TF 0.5 H 0.005\n{check}"
+    return DISCS.format(axis="0 0 1", link=link, torque=torque, rest=rest)
+
+
 def run(engrane, belt, torque=20, sam="RHO 0.9", check=""):
     """Warnings of a run, and its listing."""
-    text = DECK.format(belt=belt, torque=torque, sam=sam, check=check)
-    (engrane.folder / "belt.dat").write_text(text)
+    (engrane.folder / "belt.dat").write_text(deck(belt, torque, f"DYNAMIC {sam}", check))
     done = engrane("belt.dat", "--json")
     summary = json.loads(done.stdout)["runs"][0]
     return [d["message"] for d in summary["diagnostics"]], (engrane.folder / "belt.lst").read_text()
@@ -54,9 +46,9 @@ def test_a_belt_pulled_beyond_what_it_holds(engrane, belt, torque, said):
 
 
 def test_static_holds_with_stick(engrane):
-    deck = DECK.format(belt=RIGID + " STICK", torque=20, sam="", check="").replace("DYNAMIC", "STATIC")
-    deck = deck.replace("I 2 HINGE", "I 7 TSPRING N 0 2 AXIS 0 0 1 K 200\n I 2 HINGE")
-    (engrane.folder / "still.dat").write_text(deck)
+    text = deck(RIGID + " STICK", 20, "STATIC")
+    text = text.replace("I 2 HINGE", "I 7 TSPRING N 0 2 AXIS 0 0 1 K 200\n I 2 HINGE")
+    (engrane.folder / "still.dat").write_text(text)
     assert "STICK holds in STATIC and KINEMATIC" in engrane("still.dat").stderr
 
 

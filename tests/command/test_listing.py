@@ -63,7 +63,11 @@ def test_peaks(run):
     for name in ("SPEED", "FORCE_X", "FORCE_Z"):
         column = values[:, names.index(name)]
         at = np.argmax(np.abs(column))
-        assert found["HINGE 3", name] == pytest.approx((column[at], times[at]), rel=1e-5, abs=1e-12)
+        value, time = found["HINGE 3", name]
+        # between samples cubics may rise a little above them
+        assert abs(time - times[at]) <= times[1] - times[0]
+        assert value == pytest.approx(column[at], rel=1e-3, abs=1e-12)
+        assert abs(value) > abs(column[at]) * (1 - 1e-5)
     assert ("run", "GROUND_FORCE_Z") in found
 
 
@@ -188,3 +192,98 @@ def test_loads_and_reactions(engrane) -> None:
     (engrane.folder / "two.dat").write_text(TWO_BODIES)
     assert engrane("two.dat").returncode == 0
     assert "Loads and reactions" not in (engrane.folder / "two.lst").read_text()
+
+
+BEAM = """.UNIT SI
+.NOE
+ I 1 X 0
+ I 2 X 2
+.HYP BEAM
+.MAI I 1 N 1 2
+.MAT I 1 YT 2.1E11 NT .3 M 7800
+.BPR I 1 RECTANGLE .1 .1
+.AEL I 1 MAT 1 BPR 1
+.CLM
+ FIX NOEUD 1 C 1 2 3 4 5 6
+ STRU ACC 0 0 -10
+.FIN 1
+"""
+
+SAIL = """.UNIT SI
+.NOE
+ I 1 X 0 Y 0
+ I 2 X 1 Y 0
+ I 3 X 2 Y 0
+ I 4 X 0 Y 1
+ I 5 X 1 Y 1
+ I 6 X 2 Y 1
+ I 7 X 0 Y 2
+ I 8 X 1 Y 2
+ I 9 X 2 Y 2
+.MAI
+ I 1 N 1 2 5 4
+ I 2 N 2 3 6 5
+ I 3 N 4 5 8 7
+ I 4 N 5 6 9 8
+.SEL GROUP 1 MAILLES TOUT
+.MAT I 1 YT 1E5 NT .3 M 3
+.AEL GROUP 1 MAT 1
+.HYP MEMBRANE GROUP 1 TENSION 100
+.PHP GROUP 1 THICK .1
+.CLM
+ FIX NOEUD 1 2 3 4 6 7 8 9 C 1 2 3
+ STRU ACC 0 0 -1
+ GROUP 1 PRE V 0.5
+.SAM TYPE STATIC
+.SUB TF 1 H 1
+.FIN 1
+"""
+
+# held from below by relations of one node, and pulled at its top; a force as an element pushes it down
+BOX = """.UNIT SI
+.NOE
+ 1 0 0 0
+ 2 1 0 0
+ 3 1 1 0
+ 4 0 1 0
+ 5 0 0 1
+ 6 1 0 1
+ 7 1 1 1
+ 8 0 1 1
+.MAI I 1 N 1 2 3 4 0 5 6 7 8
+.MAT I 1 YT 1000 NT 0
+.AEL I 1 MAT 1
+.MCE I 20 FORCE N 7 DIR 0 0 -1 V 3
+.LIA
+ I 11 NOEUD 1 C 3 A 1
+ I 12 NOEUD 2 C 3 A 2
+ I 13 NOEUD 3 C 3 A 1
+ I 14 NOEUD 4 C 3 A 1
+.CLM
+ FIX NOEUD 1 C 1 2
+ FIX NOEUD 2 C 2
+ CHA NOEUD 5 6 7 8 C 3 V 1
+.FIN 1
+"""
+
+
+@pytest.mark.parametrize(
+    ("deck", "loads"),
+    [
+        (BEAM, [0, 0, -7800 * 0.01 * 2 * 10, 0, 1560, 0]),  # its weight, 1 from the support
+        (SAIL, [0, 0, -3 * 0.1 * 4 + 0.5 * 4, None, None, 0]),
+        (BOX, [0, 0, 4 - 3, 2 - 3, -2 + 3, 0]),
+    ],
+    ids=["weight of a beam", "weight of membranes", "supports by LIA"],
+)
+def test_loads_and_reactions_balance(deck: str, loads: list[float | None], engrane) -> None:
+    (engrane.folder / "held.dat").write_text(deck)
+    done = engrane("held.dat")
+    assert done.returncode == 0, done.stderr
+    text = (engrane.folder / "held.lst").read_text()
+    table = {row[0]: row[1:] for row in section(text, "Loads and reactions at the end")}
+    found, reactions = ([float(x) for x in table[name]] for name in ("loads", "reactions"))
+    size = max(map(abs, found))
+    assert reactions == pytest.approx([-x for x in found], abs=1e-4 * size)
+    for value, expected in zip(found, loads, strict=True):
+        assert expected is None or value == pytest.approx(expected, abs=1e-4 * size)

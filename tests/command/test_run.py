@@ -168,3 +168,11 @@ def test_a_failure_does_not_speak_of_the_deck_before(engrane):
     first, second = (block for block in done.stderr.split("engrane: ") if block.strip())
     assert first.startswith('function 3, EXPR "sqrt(T-1)", is not a number at T = 0; hence ')
     assert "function" not in second and "does not close" in second
+
+
+def test_the_word_run_may_stand_before_the_deck(engrane, pendulum):
+    """It was taken for another deck: \"several decks need a folder\"."""
+    assert engrane("run", "-q", pendulum, "-o", "x").returncode == 0
+    assert (engrane.folder / "x.h5").exists()
+    (engrane.folder / "run").write_text((engrane.folder / pendulum).read_text())
+    assert "several decks need a folder" in engrane("run", pendulum, "-o", "y").stderr

@@ -36,6 +36,8 @@ class StateBuffer {
   StateBuffer(const Element& element, const NodeMap& places);
 
   State view() const;
+  /// Takes over what the element commits of this state, as at the end of a step.
+  void commit(const Element& element);
 
   /// Rotates node i to start_R exp(y), with T to match.
   void turn(std::size_t i, const Mat3& start_R, const Vec3& y);
@@ -125,6 +127,8 @@ std::vector<double> tangent_of(const Element& element, const StateBuffer& state,
                                std::vector<double>* residual = nullptr);
 /// The value of an output channel; fails the test when there is none of that name.
 double channel_of(const Element& element, const StateBuffer& state, const std::string& name);
+/// What the listing tells of the element under this name; likewise.
+double derived_of(const Element& element, const std::string& name);
 
 /// mean + amplitude sin(rate t + phase), with its integral from 0: a function for drives and loads under test.
 class Wave : public Function {
@@ -146,6 +150,7 @@ struct BuildOptions {
   int id = 1;
   const std::vector<deck::Record>* records = nullptr;  ///< of the other elements
   BlockStore* blocks = nullptr;                        ///< without it every element is alone in its block
+  const Temperatures* temperatures = nullptr;
 };
 
 /// Builds an element from its card's struct, as a deck would.

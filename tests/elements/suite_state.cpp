@@ -68,6 +68,13 @@ State StateBuffer::view() const {
   return s;
 }
 
+void StateBuffer::commit(const Element& element) {
+  std::vector<double> committed_scalars = scalars, committed_history = history;
+  element.commit(view(), committed_scalars, committed_history);
+  scalars = committed_scalars;
+  history = committed_history;
+}
+
 void StateBuffer::turn(std::size_t i, const Mat3& from, const Vec3& by) {
   const Vec3 vector = by;  // may view y[i]
   start_R[i] = from;
@@ -205,6 +212,13 @@ double channel_of(const Element& element, const StateBuffer& state, const std::s
   return 0;
 }
 
+double derived_of(const Element& element, const std::string& name) {
+  for (const Derived& d : element.derived())
+    if (d.name == name) return d.value;
+  ADD_FAILURE() << "nothing derived of the name " << name;
+  return 0;
+}
+
 Function::Jet Wave::at(double t) const {
   const double s = amplitude_ * std::sin(rate_ * t + phase_), c = amplitude_ * std::cos(rate_ * t + phase_);
   return {mean_ + s, rate_ * c, -rate_ * rate_ * s, -rate_ * rate_ * rate_ * c};
@@ -224,6 +238,7 @@ std::unique_ptr<Element> build_record(const ElementType& type, std::any data, co
   Diagnostics& diagnostics = options.diagnostics ? *options.diagnostics : own;
   const FunctionMap& functions = options.functions ? *options.functions : none;
   BuildContext context{nodes, functions, diagnostics, record, options.wheel_inertia, options.records, {}, options.blocks};
+  context.temperatures = options.temperatures;
   std::vector<std::unique_ptr<Element>> others;
   context.find_element = [&](int id) -> BuildContext::Found {
     if (!options.records) return {};

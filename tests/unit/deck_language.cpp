@@ -83,6 +83,16 @@ TEST(DeckLanguage, ColumnLimit) {
             "  3 |  I 1 X 1    2 3 ! lost\n"
             "    |             ^~~~~~~~~~\n"
             "    = MODE LECT n sets how many columns are read; `$` continues a line\n");
+  const ReadDeck cut = read("MODE LECT 12\n.NOE\n I 1 X 1 2.345\n I 2 X 1 2.34 5\n");
+  EXPECT_EQ(cut.messages(),
+            "deck.dat:3:10: error: `2.345` reaches past column 12, the last that is read: `2.3` is left of it\n"
+            "  3 |  I 1 X 1 2.345\n"
+            "    |          ^~~~~\n"
+            "    = MODE LECT n sets how many columns are read; `$` continues a line\n"
+            "deck.dat:4:10: error: `2.34` reaches past column 12, the last that is read: `2.3` is left of it\n"
+            "  4 |  I 2 X 1 2.34 5\n"
+            "    |          ^~~~\n"
+            "    = MODE LECT n sets how many columns are read; `$` continues a line\n");
   const std::string wide = ".NOE\n I 1 X 1" + std::string(300, ' ') + "2\n";
   EXPECT_EQ(read(wide).at<NodeCard>(0).x, (Point{1, 0, 0}));
   EXPECT_EQ(read("MODE LECT 400\n" + wide).at<NodeCard>(0).x, (Point{1, 2, 0}));

@@ -94,15 +94,33 @@ TEST(Help, SearchesTheTexts) {
 }
 
 TEST(Help, LeadsFromWhatMachinesAreCalled) {
-  for (const auto& [words, card] :
-       {std::pair{"piston", "GAS"}, {"gas spring", "GAS"}, {"tensioner", "BELT"}, {"idler", "BELT"}, {"idler", "GEAR"}}) {
+  for (const auto& [words, card] : {std::pair{"piston", "GAS"},
+                                    {"gas spring", "GAS"},
+                                    {"tensioner", "BELT"},
+                                    {"idler", "BELT"},
+                                    {"idler", "GEAR"},
+                                    {"freewheel", "TSPRING"},
+                                    {"one-way clutch", "TSPRING"},
+                                    {"ratchet", "HINGE"},
+                                    {"governor", "CONTROLLER"},
+                                    {"differential", "GEAR"},
+                                    {"gyroscope", "RIGID"},
+                                    {"gimbal", "HINGE"},
+                                    {"hub", "WELD"},
+                                    {"prescribed force", "FORCE"},
+                                    {"rotating frame", ".CLM ROT"},
+                                    {"tire", "RACK"},
+                                    {"hydraulic", "PRISMATIC"},
+                                    {"shell", "MEMBRANE"}}) {
     const auto found = found_by(words);
     EXPECT_NE(std::find(found.begin(), found.end(), card), found.end()) << words;
   }
   const Catalogue all = engrane::catalogue(element_types());
   const std::string toothed = help_for(all, "timing belt");
   EXPECT_TRUE(toothed.starts_with("TIMING_BELT is called BELT here. A toothed belt")) << toothed.substr(0, 100);
-  for (const char* word : {"tensioner", "idler", "eigenvalue", "modal"})
+  EXPECT_TRUE(help_for(all, "chain drive").starts_with("CHAIN_DRIVE is called BELT here."));
+  for (const char* word : {"tensioner", "idler", "eigenvalue", "modal", "modes", "frequency", "eigen", "vibration", ".DYNAM",
+                           "shell", "plate", "plasticity", "tire", "hydraulic"})
     EXPECT_NE(help_for(all, word).find("not in this version"), std::string::npos) << word;
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "math/linear_rotation.hpp"
+
 namespace engrane {
 namespace {
 
@@ -38,6 +40,29 @@ TEST(Rotation, LogarithmUndoesTheExponential) {
   EXPECT_LT((rotation_exp(below) - rotation_exp((half_turn - 1e-13) * direction)).norm(), 1e-14);
   EXPECT_NEAR(rotation_log(rotation_exp((2 * half_turn + 0.1) * direction)).dot(direction), 0.1, 4e-15);
   EXPECT_NEAR(rotation_log(rotation_exp(4.0 * direction)).norm(), 2 * half_turn - 4, 4e-15);
+}
+
+TEST(Rotation, LinearisedMatricesHaveVectorsOfAnyLength) {
+  for (const double angle : {1e-9, 1e-6, 1e-3, 1.0, 4.0, 1e3, 1e9}) {
+    const Vec3 theta = angle * direction;
+    const Mat3 R = linear_rotation(theta);
+    EXPECT_EQ(is_linear_rotation(R), angle > 1e-7) << angle;
+    EXPECT_LT((rotation_log(R) - theta).norm(), 4e-15 * angle) << angle;
+    // increments of the matrix are those of the vector
+    using D = Dual<1>;
+    const Vec3 turn(0.3, 0.7, -0.4);
+    Mat3T<D> moved = R.cast<D>();
+    const Mat3 change = R * skew(turn);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) moved(i, j).d[0] = change(i, j);
+    if (!is_linear_rotation(R)) continue;
+    const Vec3T<D> found = linear_rotation_vector(moved);
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(found[i].d[0], turn[i], 1e-14 * (1 + angle)) << angle;
+    EXPECT_EQ(moment_on_node(R, turn), turn);
+  }
+  for (const double angle : {0.0, 1e-9, 1e-8, 2e-8, 1e-7, 2e-7, 1e-3, 1.0, 6.0})
+    for (const Vec3& axis : {direction, Vec3(Vec3::UnitZ())})
+      EXPECT_FALSE(is_linear_rotation(rotation_exp(angle * axis))) << angle;
 }
 
 TEST(Rotation, TangentIsTheDerivative) {

@@ -52,17 +52,7 @@ TEST(Newton, IsQuadraticOnTheBevelPair) {
 }
 
 TEST(Newton, IsQuadraticInDynamicsAtLargeSteps) {
-  // spatial double pendulum with offset inertia: rotations, gyroscopic terms, gravity, constraints
-  DeckRun deck(R"(
-.NOE
- I 1 X 1 0 0
- I 2 X 2 0.5 0.3
-.MCE
- I 1 HINGE N 0 1 AXIS 0 1 1 AT 0 0 0
- I 2 HINGE N 1 2 AXIS 1 0 2 AT 1.5 0.2 0.1
- I 3 INERTIA N 1 M 1 J 0.1 0.3 0.3
- I 4 INERTIA N 2 M 2 J 0.2 0.1 0.2
-.CLM
+  DeckRun deck(double_pendulum + R"(.CLM
  STRU ACC VAL 0 0 -9.81
 .INI
  VIT NOEUD 2 C 4 V 6

@@ -28,6 +28,26 @@ class Run:
             return r.history(path)[1]
 
 
+def program() -> str:
+    """The program; without it, the test is skipped."""
+    path = os.environ.get("ENGRANE", "")
+    if not Path(path).is_file():
+        pytest.skip("the variable ENGRANE names no program")
+    return path
+
+
+def engrane(
+    text: str, folder: Path, *words: str, name: str = "deck", ranks: int = 1, timeout: float = 300, **options
+) -> subprocess.CompletedProcess[str]:
+    """Writes a deck into the folder and runs it there, or what the words ask for; it may end with any status.
+    `options` are those of subprocess.run."""
+    (folder / f"{name}.dat").write_text(text, encoding="utf-8")
+    command = on_ranks(ranks, [program(), *words, f"{name}.dat"])
+    return subprocess.run(
+        command, cwd=folder, capture_output=True, text=True, timeout=timeout, check=False, **options
+    )
+
+
 def run(
     text: str,
     folder: Path,
@@ -38,14 +58,9 @@ def run(
     status: int = 0,
     output: Path | None = None,
 ) -> Run:
-    """Writes a deck into the folder and runs it there; another status, as of failed checks, fails the
-    test. What the program prints goes to `output`."""
-    program = os.environ.get("ENGRANE", "")
-    if not Path(program).is_file():
-        pytest.skip("the variable ENGRANE names no program")
-    (folder / f"{name}.dat").write_text(text)
-    command = on_ranks(ranks, [program, f"{name}.dat", "-o", name, *options])
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=timeout)
+    """The results of a deck; another status, as of failed checks, fails the test. What the program prints
+    goes to `output`."""
+    done = engrane(text, folder, *options, name=name, ranks=ranks, timeout=timeout)
     assert done.returncode == status, done.stdout + done.stderr
     if output:
         output.write_text(done.stdout)
@@ -54,18 +69,13 @@ def run(
 
 def said(text: str, folder: Path) -> str:
     """What the terminal shows of a run that ends with status 0."""
-    (folder / "deck.dat").write_text(text)
-    command = [os.environ["ENGRANE"], "deck.dat", "-q", "-o", "deck"]
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+    done = engrane(text, folder, "-q")
     assert done.returncode == 0, done.stdout + done.stderr
     return done.stderr
 
 
 def solve(deck: str, folder: Path, name: str = "deck", *words: str, status: int = 0) -> tuple[dict, Run]:
     """Runs a deck: what --json says of it, with what the terminal shows as "said", and its results."""
-    path = folder / f"{name}.dat"
-    path.write_text(deck, encoding="utf-8")
-    command = [os.environ["ENGRANE"], "-q", "--json", str(path), "-o", str(folder / name), *words]
-    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=300)
+    done = engrane(deck, folder, "-q", "--json", *words, name=name)
     assert done.returncode == status, done.stderr
     return json.loads(done.stdout)["runs"][0] | {"said": done.stderr}, Run(folder / f"{name}.h5")

@@ -19,16 +19,7 @@ double condition(const Assembler& assembler) {
 
 /// Conditions of the matrix of a first step for h = 1e-2 … 1e-8; `fixed` 0 lets the assembler choose k.
 std::vector<double> conditions(double fixed) {
-  DeckRun deck(R"(
-.NOE
- I 1 X 1 0 0
- I 2 X 2 0.5 0.3
-.MCE
- I 1 HINGE N 0 1 AXIS 0 1 1 AT 0 0 0
- I 2 HINGE N 1 2 AXIS 1 0 2 AT 1.5 0.2 0.1
- I 3 INERTIA N 1 M 1 J 0.1 0.3 0.3
- I 4 INERTIA N 2 M 2 J 0.2 0.1 0.2
- I 5 SPRING N 1 2 K 100
+  DeckRun deck(double_pendulum + R"( I 5 SPRING N 1 2 K 100
 .SAM TYPE DYNAMIC
 .SUB TF 1 H 0.01
 )");

@@ -4,13 +4,10 @@ sign find their flanks across the play."""
 
 from __future__ import annotations
 
-import os
-import subprocess
 from math import cos, radians, tan
 from pathlib import Path
 
 import pytest
-from engrane_post import Results
 from runs import run
 
 CLOSING = 0.4
@@ -37,12 +34,7 @@ PAIRS = {"spur": "Z 23 47", "helical": "Z 23 47 HELIX -15 X 0.3 0.2", "ring": "Z
 
 def play(folder: Path, pair: str, given: float, closer: float) -> float:
     """How far the teeth move along the circumference when the torque changes sides."""
-    (folder / "deck.dat").write_text(DECK.format(pair=pair, given=given, closer=closer))
-    command = [os.environ["ENGRANE"], "deck.dat", "-q", "-o", "deck"]
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
-    assert done.returncode == 0, done.stdout + done.stderr
-    with Results(folder / "deck.h5") as run:
-        error = run.history("1/TRANSMISSION_ERROR")[1]
+    error = run(DECK.format(pair=pair, given=given, closer=closer), folder)["1/TRANSMISSION_ERROR"]
     return float(abs(error[-1] - error[0]))
 
 

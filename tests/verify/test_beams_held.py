@@ -3,15 +3,12 @@
 
 from __future__ import annotations
 
-import json
-import os
-import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
 from beam_problems import Line, clamp, deck, orders, statics, straight, tip
-from runs import run
+from runs import run, solve
 from test_beams import elastica
 
 HELD = "BPR 1 INEXTENSIBLE UNSHEARABLE"
@@ -50,15 +47,8 @@ def condition(beam: str, stiff: float, folder: Path) -> float:
     line = Line(straight(1), 8)
     loads = f" {clamp(1)}\n CHA NOEUD {line.last} C 2 V 1 NF 1"
     section = f"EA {stiff!r} GA {stiff!r} {stiff!r} GJ 1 EI 1 1"
-    (folder / "c.dat").write_text(deck([line], section, statics(loads, 1), beam))
-    done = subprocess.run(
-        [os.environ["ENGRANE"], "c.dat", "--condition", "--json"],
-        cwd=folder,
-        capture_output=True,
-        text=True,
-        timeout=60,
-    )
-    return json.loads(done.stdout)["runs"][0]["linear_system"]["condition"]
+    found, _ = solve(deck([line], section, statics(loads, 1), beam), folder, "c", "--condition")
+    return found["linear_system"]["condition"]
 
 
 def test_condition(tmp_path: Path) -> None:

@@ -3,14 +3,12 @@
 
 from __future__ import annotations
 
-import os
 import re
-import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
-from runs import run
+from runs import engrane, run
 
 CARDS = {  # the follower and how it moves
     "roller": "FOLLOWER ROLLER 0.01 DIRECTION 0 1 0",
@@ -44,14 +42,9 @@ def model(kind: str, at: str, base: str) -> str:
 
 
 def messages(text: str, folder: Path) -> str:
-    deck = folder / "place.dat"
-    deck.write_text(text)
-    if not Path(os.environ.get("ENGRANE", "")).is_file():
-        pytest.skip("the variable ENGRANE names no program")
-    out = subprocess.run(
-        [os.environ["ENGRANE"], "check", str(deck)], capture_output=True, text=True, check=True
-    )
-    return out.stderr
+    done = engrane(text, folder, "check")
+    assert done.returncode == 0, done.stderr
+    return done.stderr
 
 
 @pytest.mark.parametrize("kind", CARDS)

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from plane_meshes import Sheet, nodal_forces
 from runs import run
+from small_decks import SQUARE
 from solid_meshes import Block
 from test_stated_errors import expect_honest, solve_by
 
@@ -164,14 +165,9 @@ def test_beams_have_the_damping_of_their_material(tmp_path: Path) -> None:
     assert all(np.array_equal(tips[name], tips["own"]) for name in ("material", "other", "cell"))
 
 
-HEATED = """.UNIT SI
-.NOE
- I 1 X 0 Y 0
- I 2 X 1 Y 0
- I 3 X 1 Y 1
- I 4 X 0 Y 1
-.MAI
- I 1 N 1 2 3 4
+HEATED = (
+    f".UNIT SI\n{SQUARE}"
+    + """\
 .SEL
  GROUP 1 MAILLES NOM "plate" TOUT
  GROUP 2 NOM "all" NOEUDS TOUT
@@ -191,6 +187,7 @@ HEATED = """.UNIT SI
 .SUB TF 1 H 0.02
 .FIN 1
 """
+)
 
 
 @pytest.mark.parametrize("analysis, delay", [("STATIC", 0.0), ("DYNAMIC", 0.1)])

@@ -223,13 +223,18 @@ def test_brackets(kind: str, hypothesis: str, tmp_path: Path) -> None:
     assert types == {{"t3": 4, "q4": 5, "t6": 36, "q8": 37}[kind]}
 
 
-WARMED = """.NOE
+# a bar of one cell
+BAR = """.NOE
  I 1 X 0 Y 0
  I 2 X 100 Y 0
  I 3 X 100 Y 10
  I 4 X 0 Y 10
 .MAI
  I 1 N 1 2 3 4
+"""
+WARMED = (
+    BAR
+    + """\
 .SEL
  GROUP 1 MAILLES NOM "bar" TOUT
  GROUP 2 NOEUDS NOM "all" TOUT
@@ -247,6 +252,7 @@ WARMED = """.NOE
 .SAM TYPE DYNAMIC
 .SUB TF 2E-4 H {step}
 """
+)
 
 
 def test_warmth_does_work(tmp_path: Path) -> None:
@@ -264,14 +270,7 @@ def test_warmth_does_work(tmp_path: Path) -> None:
 
 def tip_of_one_cell(load: float, folder: Path) -> float:
     """Over the load; the run must need no more than one correction behind the start."""
-    deck = f"""
-.NOE
- I 1 X 0 Y 0
- I 2 X 100 Y 0
- I 3 X 100 Y 10
- I 4 X 0 Y 10
-.MAI
- I 1 N 1 2 3 4
+    deck = f"""{BAR}\
 .SEL
  GROUP 1 MAILLES NOM "all" TOUT
 .MAT

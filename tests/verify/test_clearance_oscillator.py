@@ -10,8 +10,6 @@ needs time to die, so the sweep waits at 0.70. The program is taken from the var
 
 from __future__ import annotations
 
-import os
-import subprocess
 import tempfile
 from pathlib import Path
 
@@ -20,7 +18,7 @@ import pytest
 np = pytest.importorskip("numpy")
 
 from oracles import clearance_oscillator as oracle  # noqa: E402
-from runs import Run  # noqa: E402
+from runs import Run, engrane  # noqa: E402
 
 RATE = 8e-5  # of the frequency, per unit of time: 0.0006 a period
 STEP = 0.05
@@ -54,11 +52,8 @@ def oscillator(title: str, force: str, start: tuple[float, float], end: float) -
 
 def swing(deck: str, folder: Path) -> tuple[np.ndarray, np.ndarray]:
     """Times and x of a run."""
-    program = os.environ.get("ENGRANE", "")
-    if not Path(program).is_file():
-        pytest.skip("the variable ENGRANE names no program")
-    (folder / "swing.dat").write_text(deck)
-    subprocess.run([program, "-q", "swing.dat"], cwd=folder, check=True, timeout=300)
+    done = engrane(deck, folder, "-q", name="swing")
+    assert done.returncode == 0, done.stderr
     result = Run(folder / "swing.h5")
     return result.t, 1 + result["2/U_M"]
 

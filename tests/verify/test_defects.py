@@ -4,13 +4,12 @@ right number now, or the right message."""
 
 from __future__ import annotations
 
-import os
 import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
-from runs import Run, run
+from runs import Run, program, run
 from scipy.optimize import brentq
 
 DECKS = Path(__file__).parent / "defects"
@@ -38,11 +37,8 @@ def solve(name: str, folder: Path) -> Run:
 
 @pytest.mark.parametrize("name", [*REFUSED, *SAID])
 def test_message(name: str, tmp_path: Path) -> None:
-    program = os.environ.get("ENGRANE", "")
-    if not Path(program).is_file():
-        pytest.skip("the variable ENGRANE names no program")
     done = subprocess.run(
-        [program, DECKS / f"{name}.dat", "-o", tmp_path / name], capture_output=True, text=True, timeout=120
+        [program(), DECKS / f"{name}.dat", "-o", tmp_path / name], capture_output=True, text=True, timeout=120
     )
     status, words = REFUSED.get(name, (0, SAID.get(name, "")))
     assert done.returncode == status, done.stderr

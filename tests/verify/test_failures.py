@@ -1,18 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A run that cannot go on: what the user is told, what is kept, and that all ranks end together."""
 
-import os
 import signal
 import subprocess
 import time
-from pathlib import Path
 
 import h5py
 import pytest
 from engrane_post import Results
-from ranks import on_ranks
-
-BINARY = os.environ["ENGRANE"]
+from runs import engrane, program
 
 # The torque is no number after t = 0.5.
 BREAKS = """
@@ -57,15 +53,9 @@ OPEN_LOOP = """
 """
 
 
-def run(deck: str, folder: Path, ranks: int = 1) -> subprocess.CompletedProcess:
-    (folder / "deck.dat").write_text(deck, encoding="utf-8")
-    command = on_ranks(ranks, [BINARY, "-q", "deck.dat"])
-    return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=120, check=False)
-
-
 @pytest.mark.parametrize("ranks", [1, 3])
 def test_failed_run_keeps_its_results_and_says_why(tmp_path, ranks):
-    ended = run(BREAKS, tmp_path, ranks)
+    ended = engrane(BREAKS, tmp_path, "-q", ranks=ranks)
     assert ended.returncode == 2
     assert "t = 0.5" in ended.stderr and "TORQUE 3" in ended.stderr and "cut 10 times" in ended.stderr
     assert ended.stderr.count("the step was cut") == 1, "only one rank speaks"
@@ -75,30 +65,28 @@ def test_failed_run_keeps_its_results_and_says_why(tmp_path, ranks):
 
 
 def test_singular_model_names_the_free_motion(tmp_path):
-    ended = run(FREE, tmp_path)
+    ended = engrane(FREE, tmp_path, "-q")
     assert ended.returncode == 2
     assert "node 8 (rz) has no inertia, and no joint, spring or damper holds it" in ended.stderr
 
 
 def test_imposed_start_that_joints_forbid(tmp_path):
-    ended = run(OPEN_LOOP, tmp_path)
+    ended = engrane(OPEN_LOOP, tmp_path, "-q")
     assert ended.returncode == 2
     assert "imposed" in ended.stderr and "node 1 (x)" in ended.stderr
 
 
 def test_failed_run_does_not_replace_a_good_one(tmp_path):
     good = BREAKS.replace("sqrt(0.5-T)", "1")
-    assert run(good, tmp_path).returncode == 0
+    assert engrane(good, tmp_path, "-q").returncode == 0
     before = (tmp_path / "deck.h5").read_bytes()
-    assert run(BREAKS, tmp_path).returncode == 2
+    assert engrane(BREAKS, tmp_path, "-q").returncode == 2
     assert (tmp_path / "deck.h5").read_bytes() == before
     assert (tmp_path / "deck.partial.h5").exists()
 
 
 def test_results_that_cannot_be_written_end_all_ranks(tmp_path):
-    (tmp_path / "deck.dat").write_text(FREE, encoding="utf-8")
-    command = on_ranks(3, [BINARY, "-q", "deck.dat", "-o", "no/such/folder/x"])
-    ended = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=120, check=False)
+    ended = engrane(FREE, tmp_path, "-q", "-o", "no/such/folder/x", ranks=3)
     assert ended.returncode == 1
     assert "no/such/folder/x" in ended.stderr
 
@@ -106,7 +94,7 @@ def test_results_that_cannot_be_written_end_all_ranks(tmp_path):
 def test_terminated_run_closes_its_results(tmp_path):
     deck = BREAKS.replace("sqrt(0.5-T)", "1").replace("TF 1 H 0.1", "TF 1000 H 0.0001")
     (tmp_path / "deck.dat").write_text(deck, encoding="utf-8")
-    process = subprocess.Popen([BINARY, "-q", "deck.dat"], cwd=tmp_path, stderr=subprocess.PIPE, text=True)
+    process = subprocess.Popen([program(), "-q", "deck.dat"], cwd=tmp_path, stderr=subprocess.PIPE, text=True)
     deadline = time.monotonic() + 60
     while not (tmp_path / "deck.h5").exists() and time.monotonic() < deadline:
         time.sleep(0.1)
@@ -121,6 +109,6 @@ def test_terminated_run_closes_its_results(tmp_path):
 def test_what_has_no_effect_is_said(tmp_path):
     idle = '.SAI STYP 163\n.MAT\n I 1 NOM "steel" BEHA "ELASTIC" YT 2.1e11\n'
     deck = BREAKS.replace("sqrt(0.5-T)", "1") + idle
-    ended = run(deck, tmp_path)
+    ended = engrane(deck, tmp_path, "-q")
     assert ended.returncode == 0
     assert "STYP selects nothing" in ended.stderr and "this material has no effect" in ended.stderr

@@ -1,16 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`.SEL`: records of one number, or of one name and kind, are one group; contradictions are refused."""
+"""`.SEL`: records of one number, or of one name and kind, are one group; contradictions are refused. Boxes
+choose cells too, and a face named twice counts once."""
 
 from __future__ import annotations
 
-import os
-import subprocess
 from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
-from runs import run
+from runs import engrane, run
 from small_decks import SQUARES
 
 CARDS = """.MAT I 1 BEHA "ELASTIC" YT 1000. NT 0. M 1.
@@ -60,6 +59,28 @@ def test_elements_and_faces(tmp_path: Path) -> None:
         assert result["run/LOAD_FORCE_Y"][-1] == pytest.approx(-60, rel=1e-12)
 
 
+@pytest.mark.parametrize("box", ["0 10 0 10 0 0", "-1 19.9 -5 10 -1 1"])
+def test_a_box_takes_the_cells_that_lie_in_it(box: str, tmp_path: Path) -> None:
+    heavy = (
+        f'.MAT I 2 YT 1000. NT 0. M 4.\n.SEL GROUP 5 NOM "box" MAILLES BOITE {box}\n.AEL GROUP "box" MAT 2\n'
+    )
+    deck = f"{SQUARES}.SEL\n{PLATE}{WALL}{CARDS} NOEUD 3 CHA C 1 V 1.\n{heavy}.FIN 1\n"
+    assert run(deck, tmp_path)["run/MASS"][-1] == pytest.approx(500, rel=1e-12)
+
+
+def test_a_union_of_unknown_elements_is_refused(tmp_path: Path) -> None:
+    both = ' GROUP 3 MAILLES NOM "both" UNION "plate" "plat"\n'
+    said = refusal(f"{SQUARES}.SEL\n{PLATE}{both}{WALL}{CARDS}.FIN 1\n", tmp_path)
+    assert 'there is no group of elements "plat"' in said and 'did you mean "plate"?' in said
+
+
+@pytest.mark.parametrize("groups", ['"lid"', '"lid" "rim"', "8 9 8"])
+def test_a_face_named_twice_carries_its_pressure_once(groups: str, tmp_path: Path) -> None:
+    lids = ' GROUP 8 FACES NOM "lid"\n  I 1 3\n  I 1 3\n  I 2 3\n GROUP 9 FACES NOM "rim"\n  I 2 3\n'
+    deck = f"{SQUARES}.SEL\n{PLATE}{WALL}{lids}{CARDS} GROUP {groups} PRE V 3.\n.FIN 1\n"
+    assert run(deck, tmp_path)["run/LOAD_FORCE_Y"][-1] == pytest.approx(-60, rel=1e-12)
+
+
 def test_one_name_of_nodes_and_of_elements_is_two_groups(tmp_path: Path) -> None:
     both = ' GROUP 3 NOEUDS NOM "plate" I 3\n'
     deck = f'{SQUARES}.SEL\n{PLATE}{WALL}{both}{CARDS} GROUP "plate" CHA C 1 V 10.\n.FIN 1\n'
@@ -67,9 +88,7 @@ def test_one_name_of_nodes_and_of_elements_is_two_groups(tmp_path: Path) -> None
 
 
 def refusal(deck: str, folder: Path) -> str:
-    (folder / "wrong.dat").write_text(deck)
-    command = [os.environ["ENGRANE"], "check", "wrong.dat"]
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=60)
+    done = engrane(deck, folder, "check", name="wrong")
     assert done.returncode == 1, done.stdout + done.stderr
     return done.stderr
 

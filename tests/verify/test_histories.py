@@ -14,8 +14,8 @@ import h5py
 import numpy as np
 import pytest
 from engrane_post import Results
-
-BINARY = os.environ["ENGRANE"]
+from runs import Run, engrane, program
+from small_decks import SQUARE
 
 
 def row(count: int, more: str = "", end: float = 0.05) -> str:
@@ -27,26 +27,13 @@ def row(count: int, more: str = "", end: float = 0.05) -> str:
     return "\n".join([*lines, more, ".FIN 1\n"])
 
 
-def run(deck: str, folder: Path, *words: str, limit: int | None = None, name: str = "deck"):
-    (folder / f"{name}.dat").write_text(deck, encoding="utf-8")
-
-    def prepare() -> None:
-        if limit is not None:
-            resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
-
-    command = [BINARY, f"{name}.dat", *words]
-    return subprocess.run(
-        command, cwd=folder, capture_output=True, text=True, timeout=300, check=False, preexec_fn=prepare
-    )
-
-
 def names(folder: Path) -> set[str]:
     with Results(folder / "deck.h5") as result:
         return {name for name in result.channels if not name.startswith("run/")}
 
 
 def test_small_models_keep_all(tmp_path):
-    ended = run(row(10), tmp_path)
+    ended = engrane(row(10), tmp_path)
     assert ended.returncode == 0 and "histories" not in ended.stderr
     kept = names(tmp_path)
     assert {"element/20/LENGTH", "node/1/UX", "node/10/EZ"} <= kept
@@ -55,7 +42,7 @@ def test_small_models_keep_all(tmp_path):
 
 def test_large_models_say_what_they_leave_out(tmp_path):
     checks = ".CHK\n NODE 7 UZ V 0 ATOL 1\n ELEMENT 205 LENGTH V 1 ATOL 1"
-    ended = run(row(200, checks), tmp_path)
+    ended = engrane(row(200, checks), tmp_path)
     assert ended.returncode == 0
     assert ended.stderr.count("histories are kept of the run and of what .CHK compares only") == 1
     assert "600 elements and nodes" in ended.stderr
@@ -64,7 +51,7 @@ def test_large_models_say_what_they_leave_out(tmp_path):
 
 
 def test_all_of_a_large_model_if_asked(tmp_path):
-    ended = run(row(200, ".SAI KEEP ALL"), tmp_path)
+    ended = engrane(row(200, ".SAI KEEP ALL"), tmp_path)
     assert ended.returncode == 0 and "histories" not in ended.stderr
     kept = names(tmp_path)
     assert {"node/1/UX", "node/200/EZ", "element/400/LENGTH"} <= kept
@@ -83,29 +70,29 @@ def test_all_of_a_large_model_if_asked(tmp_path):
 )
 def test_selection(tmp_path, words, expected):
     groups = '.SEL GROUP 1 NOM "ends" NOEUDS 1 10\n GROUP 2 NOM "springs" ELEMENTS 11 20\n'
-    ended = run(row(10, f"{groups}.SAI {words}"), tmp_path)
+    ended = engrane(row(10, f"{groups}.SAI {words}"), tmp_path)
     assert ended.returncode == 0, ended.stderr
     assert names(tmp_path) == expected
     # a selection changes what is kept, not what it is
-    chosen = {name: history(tmp_path, name) for name in expected}
-    assert run(row(10), tmp_path).returncode == 0
+    chosen = {name: Run(tmp_path / "deck.h5")[name] for name in expected}
+    assert engrane(row(10), tmp_path).returncode == 0
     for name, values in chosen.items():
-        np.testing.assert_array_equal(values, history(tmp_path, name))
-
-
-def history(folder: Path, name: str) -> np.ndarray:
-    with Results(folder / "deck.h5") as result:
-        return result.history(name)[1]
+        np.testing.assert_array_equal(values, Run(tmp_path / "deck.h5")[name])
 
 
 def test_size_of_a_large_result(tmp_path):
-    assert run(row(8000), tmp_path, "-q").returncode == 0
+    assert engrane(row(8000), tmp_path, "-q").returncode == 0
     assert (tmp_path / "deck.h5").stat().st_size < 5e6
 
 
 @pytest.mark.parametrize("limit", [1000, 20_000, 60_000, 200_000, 1_000_000])
 def test_a_limit_of_file_size_ends_with_a_message(tmp_path, limit):
-    ended = run(row(10, ".SAI KEEP ALL FIELDS DT 0.01", end=40), tmp_path, "-q", limit=limit)
+    ended = engrane(
+        row(10, ".SAI KEEP ALL FIELDS DT 0.01", end=40),
+        tmp_path,
+        "-q",
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)),
+    )
     # 1: nothing was solved, as not even the start of the files had room
     assert ended.returncode == (1 if limit <= 20_000 else 2), (ended.returncode, ended.stderr)
     assert "Cannot write" in ended.stderr and "File too large" in ended.stderr
@@ -127,7 +114,7 @@ def test_a_full_disk_ends_with_a_message(tmp_path, size):
     try:
         if size == 0:
             (disk / "filler").write_bytes(b"x" * 4096)
-        ended = run(row(10, ".SAI KEEP ALL FIELDS DT 0.01", end=40), tmp_path, "-q", "-o", "disk/deck")
+        ended = engrane(row(10, ".SAI KEEP ALL FIELDS DT 0.01", end=40), tmp_path, "-q", "-o", "disk/deck")
         assert ended.returncode == (1 if size <= 16 else 2), (ended.returncode, ended.stderr)
         assert "Cannot write" in ended.stderr and "No space left" in ended.stderr
     finally:
@@ -136,7 +123,7 @@ def test_a_full_disk_ends_with_a_message(tmp_path, size):
 
 def test_reading_while_the_run_writes(tmp_path):
     (tmp_path / "deck.dat").write_text(row(10, ".SAI KEEP ALL", end=100000), encoding="utf-8")
-    with subprocess.Popen([BINARY, "-q", "deck.dat"], cwd=tmp_path) as process:
+    with subprocess.Popen([program(), "-q", "deck.dat"], cwd=tmp_path) as process:
         path = tmp_path / "deck.h5"
         deadline = time.monotonic() + 60
         while not path.exists() and time.monotonic() < deadline:
@@ -178,7 +165,7 @@ def test_records_of_sai_add_up(tmp_path: Path) -> None:
 .SAI ELEMENT 2
 .SAI STYP -221 FIELDS DT 0.5
 """
-    done = run(deck, tmp_path)
+    done = engrane(deck, tmp_path)
     assert done.returncode == 0, done.stderr
     with Results(tmp_path / "deck.h5") as results:
         owners = {name.rpartition("/")[0] for name in results.channels}
@@ -186,13 +173,7 @@ def test_records_of_sai_add_up(tmp_path: Path) -> None:
         assert list(results.frame_times) == [0, 0.5, 1]
 
 
-CELLS = """.NOE
- I 1 X 0 Y 0
- I 2 X 1 Y 0
- I 3 X 1 Y 1
- I 4 X 0 Y 1
-.MAI
- I 1 N 1 2 3 4
+CELLS = f"""{SQUARE}\
 .SEL GROUP 1 MAILLES TOUT
 .MAT
  I 1 BEHA "ELASTIC" YT 1000. NT 0.3
@@ -221,7 +202,7 @@ BODY = """.NOE
 
 @pytest.mark.parametrize("deck", [CELLS, BODY], ids=["cells", "body"])
 def test_results_hold_what_codes_stand_for(deck: str, tmp_path: Path) -> None:
-    done = run(deck, tmp_path)
+    done = engrane(deck, tmp_path)
     assert done.returncode == 0, done.stderr
     (said,) = re.findall(r"all results are archived: (.*)", done.stderr)
     named = dict(re.findall(r"([\d ]+) (?:is|are) ([^,]*)", said))

@@ -5,14 +5,12 @@ A beam clamped at both ends that does not stretch has a motion of first order on
 many while it is straight, and none when it is bent; what else there was decided for which it was taken.
 """
 
-import os
 import re
-import subprocess
 
 import pytest
 from engrane_post import Results
+from runs import engrane
 
-BINARY = os.environ["ENGRANE"]
 CLAMPED = "INEXTENSIBLE UNSHEARABLE"
 
 
@@ -43,10 +41,7 @@ def model(length: float, cantilever: str) -> str:
 
 
 def run(deck: str, folder) -> tuple[dict, str]:
-    (folder / "deck.dat").write_text(deck, encoding="utf-8")
-    ended = subprocess.run(
-        [BINARY, "-q", "deck.dat"], cwd=folder, capture_output=True, text=True, timeout=120, check=False
-    )
+    ended = engrane(deck, folder, "-q")
     assert ended.returncode == 0, ended.stderr
     with Results(folder / "deck.h5") as result:
         channels = {
@@ -89,10 +84,7 @@ def test_bars_in_line_beside_a_clamped_beam(tmp_path, length):
     deck = model(length, "").replace(
         ".BPR", f" I 11 X 0 0 0\n I 12 X {length!r} 0 0\n I 13 X {length!r} 0 0\n.BPR"
     )
-    (tmp_path / "deck.dat").write_text(deck.replace(".CLM", bars(length) + ".CLM"), encoding="utf-8")
-    ended = subprocess.run(
-        [BINARY, "check", "deck.dat"], cwd=tmp_path, capture_output=True, text=True, check=False
-    )
+    ended = engrane(deck.replace(".CLM", bars(length) + ".CLM"), tmp_path, "check")
     assert ended.returncode == 0, ended.stderr
     assert "singular position: 1 more there alone" in ended.stdout
     assert re.findall(r"(\d+) redundant constraint.* among (\w+ \d+)", ended.stdout) == [

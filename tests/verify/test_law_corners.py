@@ -205,7 +205,7 @@ def test_a_damper_with_two_strokes(tmp_path):
 
 def test_a_measured_curve_has_no_corners(tmp_path):
     """More than 20: a smooth curve in many pieces."""
-    points = " ".join(f"{x:.2f} {50 * x**3:.6f}" for x in np.linspace(-1.1, 1.1, 30))
+    points = "\n ".join(f"{x:.2f} {50 * x**3:.6f}" for x in np.linspace(-1.1, 1.1, 30))
     for table in (f"I 1 TABLE {points}", f"I 1 TABLE {points} PERIOD 3"):
         text = f""".NOE
  I 1 X 3 0 0

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from engrane_post.__main__ import main
 from ranks import on_ranks
-from runs import run
+from runs import engrane, program, run
 
 # two hexahedra in a row, and a wedge behind them: sets of nodes, cells and of a face
 MESH = """*NODE
@@ -183,9 +183,7 @@ def test_faults(wrong: Callable[[h5py.File], None], words: str, ranks: int, tmp_
 
 def refused(deck: str, folder: Path, ranks: int = 1, options: tuple[str, ...] = ()) -> str:
     """What is said of a deck that is wrong; it names the line of the file."""
-    (folder / "wrong.dat").write_text(deck)
-    command = on_ranks(ranks, [os.environ["ENGRANE"], "wrong.dat", *options])
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=60)
+    done = engrane(deck, folder, *options, name="wrong", ranks=ranks)
     assert done.returncode == 1, done.stdout + done.stderr
     assert "HDF5-DIAG" not in done.stderr
     return done.stderr
@@ -241,7 +239,7 @@ def test_ranks_that_read_different_meshes_do_not_run(tmp_path: Path) -> None:
     script.write_text('cd "node$OMPI_COMM_WORLD_RANK" && exec "$@" bar.dat\n')
 
     def solved() -> subprocess.CompletedProcess[str]:
-        command = on_ranks(2, ["sh", str(script), os.environ["ENGRANE"]])
+        command = on_ranks(2, ["sh", str(script), program()])
         return subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=60)
 
     assert solved().returncode == 0

@@ -291,3 +291,80 @@ def test_constant_stress_of_solids_has_no_error(name: str, tmp_path: Path) -> No
         means = results.dataset(f"fields/STRESS/{last:06d}")
     assert stress == pytest.approx(np.tile(means[0], (len(stress), 1)), abs=1e-9 * np.abs(means).max())
     assert summary["stress_error"]["energy"] < 1e-18 * summary["stress_error"]["strain_energy"]
+
+
+# a solid pulled along x by its end, and apart from it a plate pulled likewise
+SOLID = """ 1 0 0 0
+ 2 2 0 0
+ 3 2 1 0
+ 4 0 1 0
+ 5 0 0 1
+ 6 2 0 1
+ 7 2 1 1
+ 8 0 1 1
+"""
+PLATE = """ 11 5 0 0
+ 12 7 0 0
+ 13 7 1 0
+ 14 5 1 0
+"""
+SOLID_CELL, PLATE_CELL = " I 1 N 1 2 3 4 0 5 6 7 8\n", " I 2 N 11 12 13 14\n"
+SOLID_LOADS = (
+    " FIX NOEUD 1 4 5 8 C 1\n FIX NOEUD 1 2 5 6 C 2\n FIX NOEUD 1 2 3 4 C 3\n NOEUD 2 3 6 7 CHA C 1 V 5.\n"
+)
+PLATE_LOADS = (
+    " FIX NOEUD 11 14 C 1\n FIX NOEUD 11 12 C 2\n NOEUD 12 13 CHA C 2 V 3.\n NOEUD 14 CHA C 2 V 6.\n"
+)
+
+
+def parts_deck(solid: bool, plate: bool) -> str:
+    nodes = SOLID * solid + PLATE * plate
+    cells = SOLID_CELL * solid + PLATE_CELL * plate
+    loads = SOLID_LOADS * solid + PLATE_LOADS * plate
+    form = ".SEL GROUP 1 MAILLES 2\n.HYP CONT PLAN GROUP 1\n.PHP GROUP 1 THICK 0.5\n" * plate
+    assigned = ".SEL GROUP 2 MAILLES TOUT\n.MAT I 1 YT 1000. NT 0.3\n.AEL GROUP 2 MAT 1\n"
+    return f".NOE\n{nodes}.MAI\n{cells}{form}{assigned}.CLM\n{loads}.FIN 1\n"
+
+
+def with_values(rows: np.ndarray) -> np.ndarray:
+    """Without the rows of elements that have no such field."""
+    return rows[~np.isnan(rows.reshape(len(rows), -1)).any(axis=1)]
+
+
+def test_plane_cells_and_solids_in_one_deck(tmp_path: Path) -> None:
+    """Both have the stresses that they have alone, and the estimated errors add up."""
+    decks = {
+        "solid": parts_deck(True, False),
+        "plate": parts_deck(False, True),
+        "both": parts_deck(True, True),
+    }
+    fields, errors = {}, {}
+    for name, deck in decks.items():
+        folder = tmp_path / name
+        folder.mkdir()
+        summary, results = solved(deck, folder)
+        errors[name] = summary["stress_error"]["energy"]
+        with results:
+            last = f"{len(results.frame_times) - 1:06d}"
+            fields[name] = {
+                (place, field): with_values(results.dataset(f"{place}/{field}/{last}"))
+                for place in ("nodes", "fields")
+                for field in ("STRESS", "STRAIN", "VON_MISES", "PRINCIPAL")
+                if (place, field) != ("nodes", "STRAIN")
+            }
+    for key, both in fields["both"].items():
+        solid, plate = (fields[name][key] for name in ("solid", "plate"))
+        scale = np.abs(both).max()
+        assert both[: len(solid)] == pytest.approx(solid, abs=1e-9 * scale), key
+        if key[1] == "PRINCIPAL" and key[0] == "nodes":
+            plate = -np.sort(-plate, axis=1)
+        if key[1] != "PRINCIPAL" and both.ndim == 2:
+            assert np.all(both[len(solid) :, 4:] == 0), key
+            both = both[:, :4]
+        if key != ("fields", "PRINCIPAL"):  # means of sorted values are not sorted means
+            assert both[len(solid) :] == pytest.approx(plate, abs=1e-9 * scale), key
+        else:
+            assert both[len(solid) :].sum() == pytest.approx(plate.sum(), abs=1e-9 * scale)
+            assert np.all(np.diff(both[len(solid) :], axis=1) <= 1e-9 * scale)
+    assert errors["both"] == pytest.approx(errors["solid"] + errors["plate"], rel=1e-9)
+    assert errors["plate"] > 0

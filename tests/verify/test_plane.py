@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 import subprocess
 from pathlib import Path
@@ -11,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from engrane_post import Results
-from runs import run
+from runs import engrane, run
 
 DECKS = Path(__file__).resolve().parents[2] / "decks"
 
@@ -35,9 +34,6 @@ SPATIAL = ["mechanisms/bricard", "mechanisms/slider_crank", "paper/bevel_pair", 
 
 def solve(name: str, plane: str, solver: str, stepping: str, folder: Path) -> subprocess.CompletedProcess:
     """Solves a deck of the project with another plane and solver and a sharper `PREC`."""
-    program = os.environ.get("ENGRANE", "")
-    if not Path(program).is_file():
-        pytest.skip("the variable ENGRANE names no program")
     path = DECKS / f"{name}.dat"
     text = path.read_text(encoding="utf-8")
     text = re.sub(
@@ -48,10 +44,7 @@ def solve(name: str, plane: str, solver: str, stepping: str, folder: Path) -> su
     text = re.sub(r"^(\.SAM (?!.*PREC).*?)( *!.*)?$", r"\1 PREC 1D-13", text, flags=re.MULTILINE)
     if stepping:
         text = text[: text.index(".FIN")] + f".DEL.CHK\n.DEL.SUB\n.SUB {stepping}\n.FIN 1\n"
-    (folder / "deck.dat").write_text(text, encoding="utf-8")
-    return subprocess.run(
-        [program, "deck.dat", "-q"], cwd=folder, capture_output=True, text=True, timeout=600
-    )
+    return engrane(text, folder, "-q", timeout=600)
 
 
 @pytest.mark.parametrize("name", PLANAR)
@@ -117,10 +110,7 @@ def test_initial_coordinate_of_a_joint(value: str, channel: str, tmp_path: Path)
     found = run(text, tmp_path)
     start = 30 if value == "VIT" else np.radians(30)
     assert found[f"2/{channel}"][0] == pytest.approx(start, rel=1e-9)
-    (tmp_path / "plane.dat").write_text(text.replace("PLANE AUTO", "PLANE ZX"), encoding="utf-8")
-    done = subprocess.run(
-        [os.environ["ENGRANE"], "plane.dat", "-q"], cwd=tmp_path, capture_output=True, text=True, timeout=60
-    )
+    done = engrane(text.replace("PLANE AUTO", "PLANE ZX"), tmp_path, "-q")
     assert done.returncode == 1
     assert f"the initial {channel} of HINGE 2 leads out of the plane ZX" in done.stderr
 
@@ -153,14 +143,9 @@ SHORT = [
 @pytest.mark.parametrize("function", SHORT)
 def test_a_load_that_leaves_the_plane_for_a_while(tmp_path: Path, function: str) -> None:
     """Whenever it acts: at the start and at the end there is none of it."""
-    (tmp_path / "deck.dat").write_text(SIDEWAYS.format(function=function, sam="ACCURACY NORMAL"))
-    command = [os.environ["ENGRANE"], "deck.dat", "-q", "-o", "deck"]
-    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    with Results(tmp_path / "deck.h5") as results:
-        assert np.abs(results.history("node/1/UZ")[1]).max() > 1e-3
-    (tmp_path / "deck.dat").write_text(SIDEWAYS.format(function=function, sam="PLANE XY"))
-    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    found = run(SIDEWAYS.format(function=function, sam="ACCURACY NORMAL"), tmp_path)
+    assert np.abs(found["node/1/UZ"]).max() > 1e-3
+    done = engrane(SIDEWAYS.format(function=function, sam="PLANE XY"), tmp_path, "-q")
     assert done.returncode == 1
     assert "CHA 3 is not of the plane XY" in done.stderr
 
@@ -190,9 +175,7 @@ def test_friction_at_rest_holds_nothing_in_the_plane(tmp_path: Path, aside: floa
     assert found["node/1/UY"].max() == pytest.approx(aside / length * way, rel=1e-5, abs=1e-15)
     solved_in = re.search("solved in +(.*)", (tmp_path / "deck.lst").read_text(encoding="utf-8"))[1]
     assert ("the plane ZX" in solved_in) == (aside == 0)
-    (tmp_path / "plane.dat").write_text(PULLED.format(aside=aside, plane="ZX"), encoding="utf-8")
-    command = [os.environ["ENGRANE"], "plane.dat", "-q"]
-    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=60)
+    done = engrane(PULLED.format(aside=aside, plane="ZX"), tmp_path, "-q")
     assert done.returncode == (0 if aside == 0 else 1)
     if aside != 0:
         assert "SPRING 3 is not of the plane ZX" in done.stderr

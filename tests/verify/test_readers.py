@@ -16,6 +16,8 @@ import pytest
 h5py = pytest.importorskip("h5py")
 np = pytest.importorskip("numpy")
 
+from runs import program  # noqa: E402
+
 DECK = """! A double pendulum: enough for a mesh, fields and histories.
 .TITRE "double pendulum"
 .NOE
@@ -34,13 +36,6 @@ DECK = """! A double pendulum: enough for a mesh, fields and histories.
 .FIN 1
 """
 VECTORS = {"displacement", "rotation", "velocity", "angular_velocity", "reaction_force", "reaction_torque"}
-
-
-def program() -> str:
-    path = os.environ.get("ENGRANE", "")
-    if not Path(path).is_file():
-        pytest.skip("the variable ENGRANE names no program")
-    return path
 
 
 @pytest.fixture(scope="module")

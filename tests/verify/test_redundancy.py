@@ -9,8 +9,7 @@ from pathlib import Path
 
 import pytest
 from engrane_post import Results
-
-BINARY = os.environ["ENGRANE"]
+from runs import Run, engrane
 
 DOOR = """
 .NOE
@@ -80,13 +79,6 @@ LOOSE = """
 .SAM TYPE STATIC
 .SUB TF 1 H 0.1
 """
-
-
-def engrane(deck: str, folder: Path, *words: str) -> subprocess.CompletedProcess:
-    (folder / "deck.dat").write_text(deck, encoding="utf-8")
-    return subprocess.run(
-        [BINARY, *words, "deck.dat"], cwd=folder, capture_output=True, text=True, timeout=120, check=False
-    )
 
 
 def test_check_names_redundant_constraints(tmp_path):
@@ -288,13 +280,12 @@ def test_friction_on_reactions_that_are_not_unique(tmp_path):
     steps; reactions of earlier steps stayed in them before, and the motion depended on the steps."""
     lifts, forces = [], []
     for k, card in enumerate((".SUB TF 1 H 0.002", ".SUB TF 1 H 0.001", ".SUB TF 1 H 0.01 TOL 1E-5")):
-        (tmp_path / "jack.dat").write_text(JACK)
-        command = [BINARY, "jack.dat", "--card", card, "-o", f"jack{k}"]
-        done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=120, check=True)
+        done = engrane(JACK, tmp_path, "--card", card, name=f"jack{k}")
+        assert done.returncode == 0, done.stderr
         assert "friction in SCREW 4 depends on these reactions" in done.stderr
         assert "Friction in SCREW 4 depends on them" in (tmp_path / f"jack{k}.lst").read_text()
-        with Results(tmp_path / f"jack{k}.h5") as results:
-            lifts.append(results.history("element/5/SLIDE")[1][-1])
-            forces.append(results.history("element/4/RADIAL_FORCE")[1][-1])
+        found = Run(tmp_path / f"jack{k}.h5")
+        lifts.append(found["5/SLIDE"][-1])
+        forces.append(found["4/RADIAL_FORCE"][-1])
     assert lifts == pytest.approx([lifts[1]] * 3, rel=2e-5)
     assert forces == pytest.approx([forces[1]] * 3, rel=1e-4)

@@ -16,8 +16,9 @@ import numpy as np
 import pytest
 from engrane_post import Results
 from ranks import on_ranks
+from runs import Run, program
+from small_decks import SQUARE
 
-ENGRANE = os.environ.get("ENGRANE", "build/bin/engrane")
 ROOT = Path(__file__).resolve().parents[2]
 
 DECK = """.TITRE "chain of two on a motor"
@@ -48,7 +49,7 @@ def deck(folder: Path, name: str, end=1.0, solver="KLU", sam="", sai="", frames=
 
 
 def run(folder: Path, *words: str, ranks: int = 1, status: int = 0) -> str:
-    command = on_ranks(ranks, [ENGRANE, "-q", *words])
+    command = on_ranks(ranks, [program(), "-q", *words])
     ended = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=300, check=False)
     assert ended.returncode == status, ended.stderr
     return ended.stderr
@@ -138,9 +139,9 @@ def test_motion_from_an_equilibrium(tmp_path):
     run(tmp_path, "rest.dat")
     (tmp_path / "move.dat").write_text(text.format(sam='DYNAMIC RESTART "rest"', end=3), encoding="utf-8")
     run(tmp_path, "move.dat")
-    with Results(tmp_path / "move.h5") as result:
-        assert result.times()[-1] == pytest.approx(3)
-        assert np.allclose(result.history("node/1/UX")[1][-20:], 0.05, atol=1e-9)
+    result = Run(tmp_path / "move.h5")
+    assert result.t[-1] == pytest.approx(3)
+    assert np.allclose(result["node/1/UX"][-20:], 0.05, atol=1e-9)
 
 
 def test_the_dial_goes_on_from_an_equilibrium_in_space(tmp_path):
@@ -174,13 +175,9 @@ def test_another_model_is_refused(tmp_path, old, new, words):
     assert not (tmp_path / "other.h5").exists()
 
 
-CELL = """.NOE
- I 1 X 0 Y 0
- I 2 X 1 Y 0
- I 3 X 1 Y 1
- I 4 X 0 Y 1
-.MAI
- I 1 N 1 2 3 4
+CELL = (
+    SQUARE
+    + """\
 .SEL
  GROUP 1 NOM "top" FACES
   I 1 3
@@ -199,6 +196,7 @@ CELL = """.NOE
 .SUB TF {end} H 0.5
 .FIN 1
 """
+)
 
 
 def test_pressures_and_temperatures_may_change(tmp_path):
@@ -209,17 +207,17 @@ def test_pressures_and_temperatures_may_change(tmp_path):
     for name, values in (("first", before), ("fresh", after), ("rest", again)):
         (tmp_path / f"{name}.dat").write_text(CELL.format(**values), encoding="utf-8")
         run(tmp_path, f"{name}.dat")
-    with Results(tmp_path / "fresh.h5") as fresh, Results(tmp_path / "rest.h5") as rest:
-        for channel in ("node/3/UX", "node/3/UY"):
-            expected = fresh.history(channel)[1][-1]
-            assert abs(expected) > 1e-3
-            assert rest.history(channel)[1][-1] == pytest.approx(expected, rel=1e-10)
+    fresh, rest = Run(tmp_path / "fresh.h5"), Run(tmp_path / "rest.h5")
+    for channel in ("node/3/UX", "node/3/UY"):
+        expected = fresh[channel][-1]
+        assert abs(expected) > 1e-3
+        assert rest[channel][-1] == pytest.approx(expected, rel=1e-10)
     wild = after | {"edge": 5, "top": -3}  # too far for Newton's iteration from the earlier equilibrium
     for name, sam in (("wild", 'RESTART "first"'), ("near", "")):
         (tmp_path / f"{name}.dat").write_text(CELL.format(**wild | {"sam": sam}), encoding="utf-8")
         run(tmp_path, f"{name}.dat")
-    with Results(tmp_path / "near.h5") as near, Results(tmp_path / "wild.h5") as far:
-        assert far.history("node/3/UY")[1][-1] == pytest.approx(near.history("node/3/UY")[1][-1], rel=1e-8)
+    near, far = (Run(tmp_path / f"{name}.h5")["node/3/UY"][-1] for name in ("near", "wild"))
+    assert far == pytest.approx(near, rel=1e-8)
 
 
 def test_a_cell_that_is_pressed_flat(tmp_path):
@@ -271,9 +269,8 @@ def test_a_driven_motion_goes_on_in_another_analysis(tmp_path, before, after):
     run(tmp_path, pendulum(tmp_path, "whole", "KINEMATIC", DRIVEN))
     run(tmp_path, pendulum(tmp_path, "first", before, DRIVEN), "--until", "0.5", status=2)
     run(tmp_path, pendulum(tmp_path, "second", f'{after} RESTART "first"', DRIVEN))
-    with Results(tmp_path / "whole.h5") as whole, Results(tmp_path / "second.h5") as second:
-        expected, found = (r.history("element/2/ANGLE")[1] for r in (whole, second))
-        assert np.allclose(found, expected, atol=1e-9)
+    expected, found = (Run(tmp_path / f"{name}.h5")["2/ANGLE"] for name in ("whole", "second"))
+    assert np.allclose(found, expected, atol=1e-9)
 
 
 @pytest.mark.parametrize("ranks", [1, 2])
@@ -305,8 +302,7 @@ def test_loads_on_nodes_come_and_go(tmp_path, sam, tol, ranks):
         assert tables(tmp_path / "same.h5") == tables(tmp_path / "loaded.h5")
 
     def last(name):
-        with Results(tmp_path / f"{name}.h5") as results:
-            return results.history("element/2/ANGLE")[1][-1]
+        return Run(tmp_path / f"{name}.h5")["2/ANGLE"][-1]
 
     assert abs(last("free") - last("loaded")) > 1e-3
     near = 1e-5 if tol else 1e-9
@@ -347,9 +343,9 @@ def test_events_behind_a_run_that_located_none(tmp_path, law, before, end):
         sam = f'DYNAMIC SCHEME {scheme} RESTART "before"'
         (tmp_path / "then.dat").write_text(SLIDER.format(law=law, sam=sam, end=2, tol="TOL 1E-5"))
         run(tmp_path, "then.dat")
-        with Results(tmp_path / "then.h5") as results:
-            assert results.times()[-1] == 2
-            assert max(results.history("run/EVENTS")[1]) >= 1
+        result = Run(tmp_path / "then.h5")
+        assert result.t[-1] == 2
+        assert max(result["run/EVENTS"]) >= 1
 
 
 def test_events_that_the_listing_leaves_out(tmp_path):
@@ -384,8 +380,7 @@ def test_a_drive_that_jumps_is_refused_by_name(tmp_path, after):
 def test_in_statics_a_jump_is_one_more_load_step(tmp_path):
     run(tmp_path, pendulum(tmp_path, "first", "STATIC", DRIVEN), "--until", "0.5", status=2)
     run(tmp_path, pendulum(tmp_path, "jumps", 'STATIC RESTART "first"', DRIVEN, "sin(3*T)+0.2"))
-    with Results(tmp_path / "jumps.h5") as results:
-        assert results.history("element/2/ANGLE")[1][-1] == pytest.approx(np.sin(3) + 0.2, abs=1e-9)
+    assert Run(tmp_path / "jumps.h5")["2/ANGLE"][-1] == pytest.approx(np.sin(3) + 0.2, abs=1e-9)
 
 
 CARRIAGE = """.NOE
@@ -498,10 +493,10 @@ def test_other_numbers_of_ranks(tmp_path, solver):
     run(tmp_path, whole, "-o", "a", "--until", "0.1", status=2)
     run(tmp_path, whole, "-o", "b", "--restart", "a", "--until", "0.2", ranks=3, status=2)
     run(tmp_path, whole, "-o", "c", "--restart", "b", ranks=2)
-    with Results(tmp_path / "whole.h5") as one, Results(tmp_path / "c.h5") as other:
-        for channel in ("node/2/UX", "node/2/UY", "node/2/VX", "element/2/ANGLE"):
-            a, b = one.history(channel)[1], other.history(channel)[1]
-            assert np.max(np.abs(a - b)) <= 1e-10 * np.max(np.abs(a)), channel
+    one, other = Run(tmp_path / "whole.h5"), Run(tmp_path / "c.h5")
+    for channel in ("node/2/UX", "node/2/UY", "node/2/VX", "element/2/ANGLE"):
+        a, b = one[channel], other[channel]
+        assert np.max(np.abs(a - b)) <= 1e-10 * np.max(np.abs(a)), channel
 
 
 def test_kills_lose_nothing(tmp_path):
@@ -516,7 +511,7 @@ def test_kills_lose_nothing(tmp_path):
     for kill in range(1, kills + 1):
         words = ["--restart", name] if kill > 1 else []
         name, before = f"run{kill}", name
-        process = subprocess.Popen([ENGRANE, "-q", path, "-o", name, *words], cwd=tmp_path)
+        process = subprocess.Popen([program(), "-q", path, "-o", name, *words], cwd=tmp_path)
         time.sleep(dice.uniform(0.4, 2.0))
         process.send_signal(signal.SIGKILL)
         if process.wait() == 0:

@@ -1,19 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """User routines that end the program by STOP or exit(0): no success without results."""
 
-import os
 import shutil
 import subprocess
 from pathlib import Path
 
 import h5py
 import pytest
-from ranks import on_ranks
+from runs import engrane
 from user_law import deck
-
-BINARY = os.environ.get("ENGRANE", "")
-
-pytestmark = pytest.mark.skipif(not Path(BINARY).is_file(), reason="the variable ENGRANE names no program")
 
 FORTRAN = """      SUBROUTINE ENDING(IVERS, KIND, X, P, NP, Y, ISTAT)
       INTEGER IVERS, KIND, NP, ISTAT
@@ -56,9 +51,7 @@ def compile_routine(folder: Path, suffix: str, end: str) -> None:
 )
 def test_ending_the_program_is_no_success(tmp_path: Path, suffix: str, end: str, ranks: int) -> None:
     compile_routine(tmp_path, suffix, end)
-    (tmp_path / "deck.dat").write_text(deck("ending", "ending", 0.5))
-    command = on_ranks(ranks, [BINARY, "deck.dat", "-q"])
-    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=60)
+    done = engrane(deck("ending", "ending", 0.5), tmp_path, "-q", ranks=ranks)
     assert done.returncode == 139, done.stderr
     assert (
         "engrane: the user routine ending of libending.so ended the program (STOP or exit): " in done.stderr
@@ -72,8 +65,6 @@ def test_ending_the_program_is_no_success(tmp_path: Path, suffix: str, end: str,
 @pytest.mark.parametrize("task", [["check"], []])
 def test_ending_the_program_before_the_run(tmp_path: Path, task: list[str]) -> None:
     compile_routine(tmp_path, ".c", "exit(0);")
-    (tmp_path / "deck.dat").write_text(deck("ending", "ending", -1))
-    command = [BINARY, *task, "deck.dat"]
-    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=60)
+    done = engrane(deck("ending", "ending", -1), tmp_path, *task)
     assert done.returncode == 139, done.stderr
     assert "ending of libending.so ended the program" in done.stderr

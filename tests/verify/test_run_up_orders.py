@@ -4,7 +4,6 @@ pair and against the pair as one ordinary differential equation."""
 
 from __future__ import annotations
 
-import os
 import subprocess
 import sys
 from pathlib import Path
@@ -17,6 +16,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "post"))
 from engrane_post import Results  # noqa: E402
 from engrane_post.order_spectra import OrderMap, order_map, over_angle  # noqa: E402
+from runs import program  # noqa: E402
 
 TEETH, RADIUS, INERTIA, LOAD = 25, 0.0625, 0.01, 200.0
 NATURAL, DAMPING = 6000.0, 0.05
@@ -37,7 +37,7 @@ def at(m: OrderMap, order: float) -> np.ndarray:
 def measured(tmp_path_factory: pytest.TempPathFactory) -> OrderMap:
     prefix = tmp_path_factory.mktemp("orders") / "run_up"
     subprocess.run(
-        [os.environ["ENGRANE"], ROOT / "decks/trains/run_up_orders.dat", "-o", prefix],
+        [program(), ROOT / "decks/trains/run_up_orders.dat", "-o", prefix],
         check=True,
         capture_output=True,
     )

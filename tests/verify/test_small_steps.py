@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from runs import Run, run
 from scipy.integrate import solve_ivp
+from small_decks import GEAR_PAIR
 
 G = 9.81
 ANY_STEP = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9]
@@ -179,16 +180,7 @@ def test_slider_crank(h: float, tmp_path: Path) -> None:
 @pytest.mark.parametrize("h", ANY_STEP)
 def test_gear_pair(h: float, tmp_path: Path) -> None:
     """Rigid teeth under a constant torque: the force on the flanks, wheels that turn since long."""
-    deck = f"""
-.NOE
- I 1
- I 2 X 0.09
-.MCE
- I 1 HINGE N 0 1 AXIS 0 0 1
- I 2 HINGE N 0 2 AXIS 0 0 1
- I 3 GEAR N 1 2 Z 30 60 MN 0.002 HELIX 0 AXIS 0 0 1
- I 4 INERTIA N 1 J 1D-3
- I 5 INERTIA N 2 J 1D-2
+    deck = f"""{GEAR_PAIR}\
  I 6 TORQUE N 1 AXIS 0 0 1 V 5
 .INI VIT ELEMENT 1 V 40
 .SAM TYPE DYNAMIC RHO 0.8 SOLVER KLU

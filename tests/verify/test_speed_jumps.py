@@ -71,20 +71,45 @@ def test_restart_at_the_corner(analysis: str, stepping: str, tmp_path: Path) -> 
 WHEEL = """.NOE
  I 1 X 0 0 0
 .MCE
- I 1 HINGE N 0 1 AXIS 0 0 1 DRIVE ANGLE NF 1
- I 2 INERTIA N 1 M 1 J 0.01 0.02 0.02
+ I 1 HINGE N 0 1 AXIS 0 0 1 DRIVE {drive} NF 1
+ I 2 INERTIA N 1 M 1 J {inertia}
 .FCT
- I 1 EXPR "{angle}"
+ I 1 {function}
 .SAM TYPE {analysis}
-.SUB TF {end} H 1E-3 {stepping}
+.SUB TF {end!r} H {h} {stepping}
 .FIN 1
 """
 
 
+def wheel(
+    function: str,
+    end: float,
+    analysis: str = "DYNAMIC",
+    stepping: str = "",
+    drive: str = "ANGLE",
+    inertia: float = 0.01,
+    h: float = 0.01,
+) -> str:
+    """A deck of a wheel whose drive follows the function."""
+    return WHEEL.format(
+        function=function,
+        end=end,
+        analysis=analysis,
+        stepping=stepping,
+        drive=drive,
+        inertia=inertia,
+        h=h,
+    )
+
+
+def turned(angle: str, end: float, **words: str) -> str:
+    return wheel(f'EXPR "{angle}"', end, inertia=0.02, h=1e-3, **words)
+
+
 def restarted(folder: Path, before: dict, after: dict, stepping: str = "") -> tuple[dict, Run]:
     """A wheel whose drive follows another function from t = 0.01 on."""
-    run(WHEEL.format(end=0.01, **{"analysis": "DYNAMIC", "stepping": stepping, **before}), folder, "first")
-    then = WHEEL.format(end=0.02, **{"analysis": "DYNAMIC", "stepping": stepping, **after})
+    run(turned(end=0.01, **{"stepping": stepping, **before}), folder, "first")
+    then = turned(end=0.02, **{"stepping": stepping, **after})
     return solve(then, folder, "then", "--restart", str(folder / "first"))
 
 
@@ -118,7 +143,7 @@ def test_speeds_of_the_motion_before_count(stepping: str, tmp_path: Path) -> Non
     before = {"angle": "sin(30*T)"}
     told, found = restarted(tmp_path, before, {"angle": "3*sin(10*T)-4*sin(10*T)**3"}, stepping)
     assert told["said"] == ""
-    whole = run(WHEEL.format(angle="sin(30*T)", analysis="DYNAMIC", stepping=stepping, end=0.02), tmp_path)
+    whole = run(turned("sin(30*T)", 0.02, stepping=stepping), tmp_path)
     assert found["element/1/SPEED"][-1] == pytest.approx(whole["element/1/SPEED"][-1], rel=1e-4)
     told, found = restarted(tmp_path, before, {"angle": "sin(0.3)"}, stepping)
     assert ("jumps by -28.66" in told["said"]) == (not stepping)
@@ -134,26 +159,13 @@ def test_speeds_that_differ_by_rounding(tmp_path: Path) -> None:
         assert told["said"] == ""
 
 
-ZIGZAG = """.NOE
- I 1 X 0 0 0
-.MCE
- I 1 HINGE N 0 1 AXIS 0 0 1 DRIVE ANGLE NF 1
- I 2 INERTIA N 1 M 1 J 0.01
-.FCT
- I 1 TABLE {table}
-.SAM TYPE DYNAMIC {analysis}
-.SUB TF {end!r} H 0.01 {stepping}
-.FIN 1
-"""
-
-
 @pytest.mark.parametrize(
     ("analysis", "stepping"), [("", "TOL 1E-5"), ("SCHEME RADAU", "TOL 1E-5"), ("ACCURACY NORMAL", "")]
 )
 def test_corners_of_later_periods(analysis: str, stepping: str, tmp_path: Path) -> None:
     """Rounding put 0.2 + 0.8 before itself: the corner was none, and no step was short enough for it."""
-    deck = ZIGZAG.format(table="0 0 0.2 0.5 0.4 0 PERIOD 0.8", analysis=analysis, stepping=stepping, end=3.3)
-    found = run(deck, tmp_path)
+    table = "TABLE 0 0 0.2 0.5 0.4 0 PERIOD 0.8"
+    found = run(wheel(table, 3.3, f"DYNAMIC {analysis}", stepping), tmp_path)
     place = found.t % 0.8
     speed = np.where(place < 0.2, 2.5, np.where(place < 0.4, -2.5, 0))
     beside = np.min(np.abs(np.subtract.outer(place, [0, 0.2, 0.4, 0.8])), axis=1) > 1e-6
@@ -163,18 +175,18 @@ def test_corners_of_later_periods(analysis: str, stepping: str, tmp_path: Path) 
 
 def test_a_corner_of_a_later_period_where_the_run_ends(tmp_path: Path) -> None:
     """It lies in the last place before TF: the speed at the end was that of what would follow."""
-    deck = ZIGZAG.format(table="0.1 0 0.45 1 0.8 0 PERIOD 0.7", analysis="", stepping="TOL 1E-4", end=5.0)
-    assert run(deck, tmp_path)["element/1/SPEED"][-1] == pytest.approx(-1 / 0.35, rel=1e-9)
+    text = wheel("TABLE 0.1 0 0.45 1 0.8 0 PERIOD 0.7", 5, stepping="TOL 1E-4")
+    assert run(text, tmp_path)["element/1/SPEED"][-1] == pytest.approx(-1 / 0.35, rel=1e-9)
 
 
 @pytest.mark.parametrize("stepping", ["", "TOL 1E-5"])
 def test_radau_goes_on_from_fixed_steps_behind_a_jump(stepping: str, tmp_path: Path) -> None:
     """Their speeds swing about that of the drive long after. Taken as they were, no step was short enough."""
-    table = "0 0 0.2 0.5 0.37 0.1 0.55 0.9 0.8 0"
-    first = run(ZIGZAG.format(table=table, analysis="", stepping="", end=0.5), tmp_path, "first")
+    table = "TABLE 0 0 0.2 0.5 0.37 0.1 0.55 0.9 0.8 0"
+    first = run(wheel(table, 0.5), tmp_path, "first")
     assert abs(first["element/1/SPEED"][-1] - 0.8 / 0.18) > 0.01
-    deck = ZIGZAG.format(table=table, analysis="SCHEME RADAU", stepping=stepping, end=0.54)
-    found = run(deck, tmp_path, "then", options=("--restart", "first"))
+    text = wheel(table, 0.54, "DYNAMIC SCHEME RADAU", stepping)
+    found = run(text, tmp_path, "then", options=("--restart", "first"))
     behind = found.t > 0.5
     assert found["element/1/SPEED"][behind] == pytest.approx(0.8 / 0.18, rel=1e-9)
     assert found["node/1/EZ"][behind] == pytest.approx(0, abs=1e-6)
@@ -183,17 +195,7 @@ def test_radau_goes_on_from_fixed_steps_behind_a_jump(stepping: str, tmp_path: P
 def test_work_of_a_drive_to_a_corner(tmp_path: Path) -> None:
     """A drive accelerates a wheel of inertia 1 to 10 rad/s within five steps of RADAU: its power,
     400 t, ends at the corner, where the wheel has an energy of 50."""
-    deck = """.NOE
- I 1 X 0 0 0
-.MCE
- I 1 HINGE N 0 1 AXIS 0 0 1 DRIVE SPEED NF 1
- I 2 INERTIA N 1 M 1 J 1
-.FCT
- I 1 TABLE 0 0 0.5 10 10 10
-.SAM TYPE DYNAMIC SCHEME RADAU
-.SUB TF 1 H 0.1
-.FIN 1
-"""
-    whole = run(deck, tmp_path)
+    text = wheel("TABLE 0 0 0.5 10 10 10", 1, "DYNAMIC SCHEME RADAU", drive="SPEED", inertia=1, h=0.1)
+    whole = run(text, tmp_path)
     assert whole["run/external_work"][-1] == pytest.approx(50, rel=1e-9)
     assert abs(whole["run/energy_error"]).max() < 1e-9 * 50

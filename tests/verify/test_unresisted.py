@@ -4,14 +4,11 @@ do not notice. They are refused with the motion by name; no displacement of 1e12
 
 from __future__ import annotations
 
-import os
-import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
-from ranks import on_ranks
-from runs import run
+from runs import engrane, run
 
 BEAM = """
 .NOE
@@ -83,9 +80,7 @@ def plate(support: str) -> str:
 
 
 def refused(text: str, folder: Path, ranks: int = 1, options: tuple[str, ...] = ()) -> str:
-    (folder / "deck.dat").write_text(text)
-    command = on_ranks(ranks, [os.environ["ENGRANE"], "deck.dat", *options])
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=120, check=False)
+    done = engrane(text, folder, *options, ranks=ranks)
     assert done.returncode == 2, done.stdout + done.stderr
     return done.stderr
 

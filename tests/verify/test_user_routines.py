@@ -3,17 +3,13 @@
 
 import math
 import os
-import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
-from engrane_post import Results
-from ranks import on_ranks
-from runs import run
+from runs import Run, engrane, run
 from user_law import deck
 
-BINARY = os.environ.get("ENGRANE", "")
 LIBRARIES = Path(os.environ.get("ENGRANE_USER_PATH", "."))
 
 pytestmark = pytest.mark.skipif(
@@ -33,9 +29,7 @@ pytestmark = pytest.mark.skipif(
     ],
 )
 def test_failure_names_the_routine(tmp_path: Path, routine: str, words: str, ranks: int) -> None:
-    (tmp_path / "deck.dat").write_text(deck("wrong_laws", routine, 0.5))
-    command = on_ranks(ranks, [BINARY, "deck.dat"])
-    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    done = engrane(deck("wrong_laws", routine, 0.5), tmp_path, ranks=ranks)
     assert done.returncode == 2, done.stderr
     assert "engrane: step " in done.stderr and ", t = 0.52" in done.stderr
     assert f"SPRING 1: the user routine {words}" in done.stderr
@@ -43,8 +37,7 @@ def test_failure_names_the_routine(tmp_path: Path, routine: str, words: str, ran
 
 
 def test_crash_names_the_routine(tmp_path: Path) -> None:
-    (tmp_path / "deck.dat").write_text(deck("wrong_laws", "crashes", 0.5))
-    done = subprocess.run([BINARY, "deck.dat"], cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    done = engrane(deck("wrong_laws", "crashes", 0.5), tmp_path)
     assert done.returncode != 0
     assert "the user routine crashes of libwrong_laws.so crashed" in done.stderr
 
@@ -53,8 +46,7 @@ def test_crash_names_the_routine(tmp_path: Path) -> None:
 def test_energy_that_depends_on_time(tmp_path: Path, energy: int, status: int) -> None:
     """The motion is right, and the run ended with the advice to take smaller steps."""
     text = deck("wrong_laws", "swings", energy).replace("C 1 V 1", "C 1 V 0")
-    (tmp_path / "deck.dat").write_text(text)
-    done = subprocess.run([BINARY, "deck.dat"], cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    done = engrane(text, tmp_path)
     assert done.returncode == status, done.stderr
     cause = "the energy that its routine returns depends on the time"
     assert (cause in done.stderr) == (status == 2)
@@ -75,13 +67,12 @@ def test_a_drive_is_not_asked_beyond_its_range(tmp_path: Path, end: int) -> None
 .SUB TF {end} H 0.02
 .FIN
 """
-    (tmp_path / "deck.dat").write_text(text)
-    done = subprocess.run([BINARY, "deck.dat"], cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    done = engrane(text, tmp_path)
     if end == 1:
         assert done.returncode == 0, done.stderr
-        with Results(tmp_path / "deck.h5") as results:
-            times, torque = results.history("element/1/DRIVE_TORQUE")
-        assert torque == pytest.approx(-0.2 * math.pi**2 * np.sin(math.pi * times), abs=1e-6)
+        found = Run(tmp_path / "deck.h5")
+        torque = -0.2 * math.pi**2 * np.sin(math.pi * found.t)
+        assert found["1/DRIVE_TORQUE"] == pytest.approx(torque, abs=1e-6)
     else:
         assert done.returncode == 2, done.stderr
         assert "bounded of libwrong_laws.so says that this is outside what it is good for" in done.stderr

@@ -157,8 +157,9 @@ Schema group_card() {
   card.chapter(model_chapter).key("GROUP");
   card.describe(
       "What a group holds is given by numbers and ranges (`1 A 20`, or `I 1 J 20 K 1`: from, to, step; `I 7`), by TOUT, by a "
-      "box, by other groups, or by the attribute of elements; several of these add up. Faces are given one by one, by their cell "
-      "and their number there (`I 57 3`). Other cards name a group by its number or by its name. Records of one number, or of "
+      "box, by other groups, or by the attribute of elements; several of these add up. Faces are given one by one only, by their "
+      "cell and their number there (`I 57 3`), without TOUT, BOITE or UNION. Other cards name a group by its number or by its "
+      "name. Records of one number, or of "
       "one "
       "name and kind, are one group: later ones add to it. A condition or load on nodes is for those that the records above it "
       "name.");
@@ -174,7 +175,7 @@ Schema group_card() {
   card.add("UNION", &GroupCard::united, "other groups whose members belong to this one")
       .refers(Reference::group)
       .values(1, any_number);
-  card.add("BOITE", &GroupCard::box, "nodes in the box xmin xmax ymin ymax zmin zmax")
+  card.add("BOITE", &GroupCard::box, "nodes in the box xmin xmax ymin ymax zmin zmax, or cells of which all nodes are in it")
       .synonyms({"BOX"})
       .unit(dimension::length)
       .values(6, 6);

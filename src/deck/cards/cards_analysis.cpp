@@ -297,7 +297,10 @@ Schema archive_card() {
       "the "
       "run, those that .CHK compares, and those that ELEMENT, TYPE, NOEUD and GROUP select. Where these select, nothing else is "
       "kept, in "
-      "small models too; CHANNEL alone selects from all elements and nodes. Several records add up.");
+      "small models too; CHANNEL alone selects from all elements and nodes. Several records add up. Cells that are selected keep "
+      "their fields: each component of STRESS, STRAIN, …, of the points of a cell the value of largest magnitude. CHANNEL names "
+      "what else "
+      "is wanted: \"STRESS:XX:3\" at point 3, and for nodes \"VON_MISES\" or \"STRESS:XX\", averaged there.");
   card.finish(check_archive);
   card.example(".SAI FIELDS DT 0.001 HISTORY DT 0.0001 NEWTON");
   card.example(".SAI TYPE GEAR NOEUD 4 10 A 20 CHANNEL \"NORMAL_FORCE\" \"UX\" RESTART DT 0.1");
@@ -329,7 +332,9 @@ Schema check_card() {
       "A check compares one number of the results with a known value. The run prints each check with PASS or FAIL; a failed one "
       "sets "
       "the exit status. A check passes when the difference is at most ATOL or at most RTOL times the value. "
-      "ELEMENT, NODE or RUN starts a check.");
+      "ELEMENT, NODE or RUN starts a check. Fields are quantities too, by their names in pictures: of an element VON_MISES or "
+      "STRESS:XX is the value of largest magnitude at its points, with its sign, and VON_MISES:3 or STRESS:XX:3 that at point 3; "
+      "of a node it is the average of the cells there.");
   card.add("ELEMENT", &CheckCard::element, "the element whose quantity is checked")
       .synonyms({"MCE"})
       .refers(Reference::element)
@@ -341,7 +346,7 @@ Schema check_card() {
       .at_least(1)
       .leads();
   card.add("RUN", &CheckCard::run, "a quantity of the whole model is checked").synonyms({"CALCUL"}).leads();
-  card.add("QUANTITY", &CheckCard::quantity, "name of the quantity: NORMAL_FORCE, UX, ENERGY_ERROR, …")
+  card.add("QUANTITY", &CheckCard::quantity, "name of the quantity: NORMAL_FORCE, UX, ENERGY_ERROR, VON_MISES, STRESS:XX, …")
       .synonyms({"GRANDEUR"})
       .positional()
       .required();
@@ -367,6 +372,7 @@ Schema check_card() {
   card.example(
       ".CHK\n ELEMENT 1 NORMAL_FORCE T 1 V 1064.2 RTOL 1e-4 REF \"F = M/(rB cos alpha)\"\n"
       " NODE 4 UX MAX WINDOW 0.5 1 V 0.02 ATOL 1e-6\n RUN ENERGY_ERROR V 0 ATOL 1e-9");
+  card.example(".CHK\n ELEMENT 12 VON_MISES MAX V 2.1E8 RTOL 0.01\n NODE 4 STRESS:XX V 1.5E8 RTOL 0.01");
   return card.schema();
 }
 

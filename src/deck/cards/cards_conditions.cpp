@@ -118,12 +118,13 @@ Schema load_card() {
 }
 
 Schema temperature_card() {
-  Card<TemperatureCard> card(".CLM TEMP", {".BOUNDARY", "TEMPERATURE"}, "Temperatures of the nodes of a mesh");
+  Card<TemperatureCard> card(".CLM TEMP", {".BOUNDARY", "TEMPERATURE"}, "Temperatures of nodes");
   card.chapter(chapter).redefines();
   card.describe(
-      "Between the nodes of a cell the shape functions interpolate the temperature; nodes without a record have no temperature "
-      "rise. Materials expand by A of `.MAT` times the value. Of several records on a node the last "
-      "holds.");
+      "Cells, membranes and beams expand by A of their `.MAT` times the value; nothing else does. Between the nodes of an "
+      "element "
+      "the shape functions interpolate the temperature; nodes without a record have no temperature rise. Of several records on a "
+      "node the last holds.");
   add_target(card);
   card.add("V", &TemperatureCard::rise, "temperature rise above the stress-free temperature, in degrees")
       .synonyms({"VAL"})

@@ -16,9 +16,8 @@ Schema hypothesis_card() {
   card.describe(
       "`MEMB BIDIM` (or `CONT PLAN`) is plane stress, `DEFO PLAN` plane strain, `AXIS` axisymmetric about the global y axis with "
       "radius x; `MEMBRANE` alone makes cells in space membranes, as the element MEMBRANE; solids have VOLUME, also without a "
-      "record; cells of two nodes, or three, have BEAM. Other formulations of BACON are refused by their name. Of several "
-      "records "
-      "on a cell the last holds.");
+      "record. Cells of two nodes, or three, need `BEAM`, as all but solids need a record. Other formulations of BACON are "
+      "refused by their name. Of several records on a cell the last holds.");
   card.add("FORMULATION", &HypothesisCard::formulation,
            "MEMBRANE, CONTRAINTE, DEFORMATION, AXISYMETRIQUE, VOLUME, or BEAM (POUTRE), or their beginning")
       .positional()
@@ -70,7 +69,7 @@ Schema assignment_card() {
            "angle about the z axis from the x axis to the first axis of the material, in degrees");
   card.add("FRAME", &AssignmentCard::frame,
            "`.FRAME` whose axes are meant instead of the global ones; of a cylindrical one the radial, the circumferential and "
-           "the third axis at the middle of each cell")
+           "the third axis, at each point")
       .synonyms({"REPERE"})
       .at_least(1);
   card.add("BPR", &AssignmentCard::profile, "of beams: number of the section in `.BPR`").synonyms({"SECTION"}).at_least(1);

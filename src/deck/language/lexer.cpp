@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "deck/language/lexer.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -101,7 +103,7 @@ class LineBuilder {
         }
       }
       if (characters >= columns) {
-        warn_of_lost_text(rest, number, i, columns);
+        report_lost_text(source, number, i, columns, quote != '\0');
         return false;
       }
       if (quote == '\0' && c == '/') {
@@ -134,11 +136,24 @@ class LineBuilder {
     line_.origins.push_back(origin);
   }
 
-  void warn_of_lost_text(std::string_view rest, int number, std::size_t offset, int columns) {
+  /// A word or number cut in two is an error: what is left of it means something else.
+  void report_lost_text(std::string_view source, int number, std::size_t offset, int columns, bool quoted) {
+    const std::string_view rest = source.substr(offset);
     if (nothing_left(rest)) return;
+    const char* cure = "MODE LECT n sets how many columns are read; `$` continues a line";
+    if (offset > 0 && !quoted && !ends_word(source[offset - 1]) && !ends_word(rest.front())) {
+      std::size_t begin = offset, end = offset;
+      while (begin > 0 && !ends_word(source[begin - 1])) --begin;
+      while (end < source.size() && !ends_word(source[end])) ++end;
+      const Location where{line_.file, number, column(begin), static_cast<int>(end - begin)};
+      diagnostics_.error(where,
+                         fmt::format("`{}` reaches past column {}, the last that is read: `{}` is left of it",
+                                     source.substr(begin, end - begin), columns, source.substr(begin, offset - begin)),
+                         cure);
+      return;
+    }
     const Location where{line_.file, number, column(offset), static_cast<int>(rest.size())};
-    diagnostics_.warning(where, "text past column " + std::to_string(columns) + " is not read",
-                         "MODE LECT n sets how many columns are read; `$` continues a line");
+    diagnostics_.warning(where, "text past column " + std::to_string(columns) + " is not read", cure);
   }
 
   void replace(std::string_view source, std::size_t i, std::string_view name, int number) {

@@ -36,7 +36,7 @@ Wanted wanted_for(const std::string& word) {
     wanted.beginnings.push_back(std::move(beginning));
   };
   add(plain);
-  for (const Concept* c : find_concepts(word)) {
+  for (const Concept* c : find_concepts(word.starts_with('.') ? word.substr(1) : word)) {
     for (const std::string_view term : c->terms) add(plain_word(term));
     for (const std::string_view name : c->cards) wanted.cards.emplace_back(name);
     for (const std::string_view name : c->keywords) wanted.keywords.emplace_back(name);
@@ -108,8 +108,10 @@ std::string shortened(const std::string& text, std::size_t size) {
 
 std::string help_search(const Catalogue& catalogue, const std::string& text) {
   std::vector<Wanted> words;
+  // `.DYNAM` may be a command of another program
+  const std::vector<const Concept*> named = find_concepts(text.starts_with('.') ? text.substr(1) : text);
   // two words may form one name: `pressure angle`
-  if (!find_concepts(text).empty()) {
+  if (!named.empty()) {
     words.push_back(wanted_for(text));
   } else {
     std::istringstream stream(text);
@@ -123,7 +125,7 @@ std::string help_search(const Catalogue& catalogue, const std::string& text) {
   std::stable_sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.worth > b.worth; });
 
   std::string out = "No card is called " + text + "; these have to do with it (`engrane help NAME` tells more)\n\n";
-  for (const Concept* c : find_concepts(text))
+  for (const Concept* c : named)
     if (!c->advice.empty()) out += std::string(c->advice) + ".\n\n";
   for (std::size_t i = 0; i < std::min(hits.size(), most_cards); ++i) {
     const Hit& hit = hits[i];

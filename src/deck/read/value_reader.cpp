@@ -10,6 +10,7 @@
 #include "base/text.hpp"
 #include "deck/language/number.hpp"
 #include "deck/schema/matching.hpp"
+#include "deck/schema/thesaurus.hpp"
 
 namespace engrane::deck {
 
@@ -21,6 +22,23 @@ constexpr int most_produced = 20'000'000;
 bool is_integer(double value) { return std::floor(value) == value && std::abs(value) <= std::numeric_limits<int>::max(); }
 
 bool has_exact_field(const Schema& schema, std::string_view word) { return match_field(schema, word).exact; }
+
+/// Whether the next word is short for a keyword: `MI 0`, but not the `ANGLE` of `DRIVE ANGLE NF 1` where ANGLE0 takes a number.
+bool shortens_keyword(TokenStream& tokens, const Schema& schema) {
+  const Field* field = match_field(schema, tokens.peek().text).entry;
+  if (!field || field->type != FieldType::real) return field;
+  const Token& next = tokens.peek(1);
+  return next.is_number() || (next.is_word() && std::any_of(field->fillers.begin(), field->fillers.end(),
+                                                            [&](const auto& filler) { return same_word(filler, next.text); }));
+}
+
+/// What is said elsewhere of a word that a keyword of this card does not know.
+std::string advice_on(std::string_view word, const Schema& schema) {
+  for (const Concept* c : find_concepts(word))
+    if (!c->advice.empty() && std::find(c->cards.begin(), c->cards.end(), schema.name) != c->cards.end())
+      return ". " + std::string(c->advice);
+  return {};
+}
 
 /// Node 0 is the ground, and number 0 of other objects means "none"; negative numbers do not exist.
 double lower_bound(const Field& field) {
@@ -317,13 +335,13 @@ void ValueReader::read_choice(Work& work) {
     error(work, next.where, next.quoted() + " is short for several words of " + field.keyword,
           "give one of " + join(candidate_names(match), " or "));
   } else if (!field.options.empty() && field.options.front().min_values == 0 &&
-             (keyword || !next.is_word() || match_field(work.schema, next.text).entry)) {
+             (keyword || !next.is_word() || shortens_keyword(tokens_, work.schema))) {
     option = &field.options.front();  // the keyword stands alone
   } else {
     std::vector<std::string> names;
     for (const Option& known : field.options) names.push_back(known.name);
     std::string hint = next.is_word() ? did_you_mean(next.text, option_words(field)) : "";
-    if (hint.empty()) hint = "give " + join(names, " or ");
+    if (hint.empty()) hint = "give " + join(names, " or ") + (next.is_word() ? advice_on(next.text, work.schema) : "");
     if (next.is_word() && !keyword) take(work);
     error(work, next.is_word() && !keyword ? next.where : work.keyword,
           next.is_word() && !keyword ? field.keyword + " does not know " + next.quoted() : field.keyword + " needs a word", hint);

@@ -22,9 +22,8 @@ constexpr std::array all{
         "two "
         "strokes: `(10//name)`. `engrane -D name=text` replaces the text of the deck"},
     Order{"MODE", "MODE LECT n",
-          "lines are read up to column n (256 without it); a warning says when text lies beyond. Other settings of MODE are "
-          "skipped "
-          "with a warning"},
+          "lines are read up to column n (256 without it); a warning says when text lies beyond, and a number or word cut "
+          "in two is an error. Other settings of MODE are skipped with a warning"},
     Order{".FIN", ".FIN", "ends the deck"},
     Order{".DEL", ".DEL.CLM",
           "forgets all records that `.CLM` gave so far, and likewise for any command; `.DEL.*` forgets all records"},

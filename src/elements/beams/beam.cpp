@@ -131,6 +131,14 @@ std::unique_ptr<Element> make_pieces(Plan& plan, const LineNodes& line) {
   for (std::size_t p = 0; p < line.pieces(); ++p) {
     auto piece = make_piece<Nodes>(plan, places[p]);
     if (!piece) return nullptr;
+    const auto nodes = line.piece<Nodes>(p);
+    piece->warmth = warmth_of({nodes.begin(), nodes.end()}, plan.sections.first().expansion != 0, "beam", plan.context);
+    if (piece->warmth && choice.inextensible) {
+      plan.context.error("INEXTENSIBLE",
+                         fmt::format("beam {} does not stretch, and TEMP would expand it", plan.context.record.id),
+                         "leave INEXTENSIBLE out, or A out of its material");
+      return nullptr;
+    }
     auto element =
         Beams<Nodes, Held>::add(block, plan.context.record.id + static_cast<int>(p), line.piece<Nodes>(p), std::move(*piece));
     if (!first)

@@ -72,8 +72,9 @@ Energies Beams<Nodes, Held>::energies(std::size_t e, const State& state) const {
   const Motion<double, Nodes> motion(state);
   Energies sum;
   for (std::size_t p = 0; p < piece.at.size(); ++p) {
-    const auto strain = piece.strain(motion, p);
-    sum.potential += piece.at[p].length / 2 * piece.stress(p, strain).dot(strain);
+    const Vec6 strain = piece.strain(motion, p, state.time), stress = piece.stress(p, strain);
+    sum.potential += piece.at[p].length / 2 * stress.dot(strain);
+    sum.external -= piece.at[p].length * stress[0] * piece.free_stretch_rate(p, state.time);  // ∂V/∂ΔT dΔT
     if (piece.section->damping > 0) {
       const Vec6 rate = piece.strain_rate(motion, p);
       sum.dissipated += piece.at[p].length * piece.section->damping * rate.dot(piece.stress(p, rate));
@@ -149,7 +150,7 @@ void Beams<Nodes, Held>::observe(std::size_t e, const State& state, std::span<do
   const Motion<double, Nodes> motion(state);
   values[next] = 0;
   for (std::size_t p = 0; p < piece.at.size(); ++p) {
-    const auto strain = piece.strain(motion, p);
+    const Vec6 strain = piece.strain(motion, p, state.time);
     values[next] += piece.at[p].length / 2 * piece.stress(p, strain).dot(strain);
   }
 }
@@ -176,7 +177,7 @@ void Beams<Nodes, Held>::evaluate_fields(std::size_t e, const State& state, std:
   const Motion<double, Nodes> motion(state);
   for (std::size_t p = 0; p < piece.at.size(); ++p) {
     const BeamSection& section = *piece.at[p].section;
-    Vec6 strain = piece.strain(motion, p), stress = piece.stress(p, strain);
+    Vec6 strain = piece.strain(motion, p, state.time), stress = piece.stress(p, strain);
     if (section.damping > 0) stress += section.damping * piece.stress(p, piece.strain_rate(motion, p));
     if (Held) stress += piece.holding(state, p);
     for (std::size_t c = 0; c < 3; ++c) {

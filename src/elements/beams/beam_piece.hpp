@@ -9,6 +9,7 @@
 
 #include "elements/beams/beam_strain.hpp"
 #include "elements/common/rotation_vector.hpp"
+#include "elements/common/warmth.hpp"
 #include "math/chain.hpp"
 #include "model/templated_block.hpp"
 
@@ -23,6 +24,8 @@ namespace engrane::elements::beams {
 /// integration, with one Gauss point fewer than nodes, which avoids locking. Inertia: consistent mass on the line of centres of
 /// mass, whose points move rigidly with the nodes; inertia tensors of the sections lumped at the nodes. Momentum and rigid-body
 /// motion are exact.
+///
+/// Warm pieces: the stretch α ΔT causes no stress. It is uniform in a section, and the section keeps its size.
 ///
 /// Each strain constrained to zero (BeamSection::held) has a multiplier at each Gauss point, ordered by point. The constraint
 /// is Φ = −strain · length and the multiplier is the constraint force.
@@ -48,15 +51,16 @@ struct BeamPiece {
   Eigen::Matrix<double, Nodes, Nodes> mass;
   std::array<Vec3, Nodes> centers;  ///< centre of mass relative to each node, in body axes that are the global ones at rest
   std::array<Mat3, Nodes> inertia;  ///< about these centres, in the same axes
+  NodeWarmth warmth;
 
   template <class T>
   void evaluate(const Motion<T, Nodes>& motion, const State& state, Balance<T, Nodes>& balance) const {
     if (small)
-      resist_small(motion, balance);
+      resist_small(motion, state.time, balance);
     else if (section->damping > 0)
-      resist<true>(motion, balance);
+      resist<true>(motion, state.time, balance);
     else
-      resist<false>(motion, balance);
+      resist<false>(motion, state.time, balance);
     if (section->has_mass()) add_inertia(motion, state, balance);
   }
 
@@ -65,10 +69,19 @@ struct BeamPiece {
   /// Residual and closed-form tangent, with six unknowns per node.
   void tangent(const State& state, Weights weights, std::span<double> r, std::span<double> k) const;
 
-  /// Strains ε at a point.
-  Vec6 strain(const Motion<double, Nodes>& motion, std::size_t point) const {
-    if (small) return map(small_strain(at[point], small_shift(motion), small_turn(motion)));
-    return map(BeamStrain<double>(Relative<double>(motion).at(at[point]), at[point].axes).strain());
+  /// α ΔT at a point, and its rate.
+  double free_stretch(std::size_t point, double time) const {
+    return warmth ? at[point].section->expansion * rise_at(warmth, at[point].shape, time) : 0;
+  }
+  double free_stretch_rate(std::size_t point, double time) const {
+    return warmth ? at[point].section->expansion * rise_rate_at(warmth, at[point].shape, time) : 0;
+  }
+  /// Strains ε at a point that cause stress: all but the free stretch.
+  Vec6 strain(const Motion<double, Nodes>& motion, std::size_t point, double time) const {
+    Vec6 strain = small ? map(small_strain(at[point], small_shift(motion), small_turn(motion)))
+                        : map(BeamStrain<double>(Relative<double>(motion).at(at[point]), at[point].axes).strain());
+    strain[0] -= free_stretch(point, time);
+    return strain;
   }
   /// Elastic stress resultants at a point, without damping and constraint forces. Half their product with the strains is the
   /// strain energy per unit length.
@@ -183,12 +196,13 @@ struct BeamPiece {
         if (const double part = section.held[i][static_cast<Eigen::Index>(c)]; part != 0) stress[c] += force[i] * part;
   }
 
-  /// Generalised forces conjugate to h, ψ, ψ′ at a point. `x` holds h, ψ, ψ′, then their rates (damped sections), then the
-  /// multipliers (held strains).
+  /// Generalised forces conjugate to h, ψ, ψ′ at a point with a free stretch. `x` holds h, ψ, ψ′, then their rates (damped
+  /// sections), then the multipliers (held strains).
   template <bool Damped, bool Held, class S, std::size_t Size>
-  std::array<S, BeamPlace<S>::size> forces(const Point& point, const std::array<S, Size>& x) const {
+  std::array<S, BeamPlace<S>::size> forces(const Point& point, double free_stretch, const std::array<S, Size>& x) const {
     const BeamStrain<S> strain(BeamPlace<S>::of(x.data()), point.axes);
     std::array<S, 6> total = strain.strain();
+    if (free_stretch != 0) total[0] -= S(free_stretch);
     if constexpr (Damped) {
       const auto rate = strain.strain_rate(BeamPlace<S>::of(x.data() + BeamPlace<S>::size));
       for (std::size_t c = 0; c < 6; ++c) total[c] += rate[c] * section->damping;
@@ -201,7 +215,8 @@ struct BeamPiece {
   }
 
   template <bool Damped, bool Held, class T>
-  BeamPlace<T> point_forces(std::size_t p, const Relative<T>& relative, const Arms<T>& rates, Balance<T, Nodes>& balance) const {
+  BeamPlace<T> point_forces(std::size_t p, const Relative<T>& relative, const Arms<T>& rates, double time,
+                            Balance<T, Nodes>& balance) const {
     constexpr std::size_t size = BeamPlace<T>::size;
     std::array<T, (Damped ? 2 * size : size) + (Held ? 3 : 0)> x;
     const BeamPlace<T> place = relative.at(at[p]);
@@ -213,12 +228,13 @@ struct BeamPiece {
       const auto force = hold(p, through_few<6>(own, [&](const auto& numbers) { return strains(at[p], numbers); }), balance);
       std::copy(force.begin(), force.end(), x.end() - 3);
     }
-    const auto f = through_few<size>(x, [&](const auto& own) { return forces<Damped, Held>(at[p], own); });
+    const double stretch = free_stretch(p, time);
+    const auto f = through_few<size>(x, [&](const auto& own) { return forces<Damped, Held>(at[p], stretch, own); });
     return BeamPlace<T>::of(f.data());
   }
 
   template <bool Damped, class T>
-  void resist(const Motion<T, Nodes>& motion, Balance<T, Nodes>& balance) const {
+  void resist(const Motion<T, Nodes>& motion, double time, Balance<T, Nodes>& balance) const {
     const Relative<T> relative(motion);
     Arms<T> rates;
     if constexpr (Damped) rates = relative.rates(motion);
@@ -228,8 +244,8 @@ struct BeamPiece {
     moment.fill(none);
     for (std::size_t p = 0; p < at.size(); ++p) {
       const Point& point = at[p];
-      const auto of = section->held.empty() ? point_forces<Damped, false>(p, relative, rates, balance)
-                                            : point_forces<Damped, true>(p, relative, rates, balance);
+      const auto of = section->held.empty() ? point_forces<Damped, false>(p, relative, rates, time, balance)
+                                            : point_forces<Damped, true>(p, relative, rates, time, balance);
       for (std::size_t i = 0; i < Nodes; ++i) {
         if (i == reference) continue;
         force[i] += of.h * (point.length * point.slope[i]);
@@ -294,12 +310,13 @@ struct BeamPiece {
   /// Forces linear in the displacements and moments linear in the rotation vectors. Both are in global axes, so that
   /// equilibrium with given forces and moments is a linear system.
   template <class T>
-  void resist_small(const Motion<T, Nodes>& motion, Balance<T, Nodes>& balance) const {
+  void resist_small(const Motion<T, Nodes>& motion, double time, Balance<T, Nodes>& balance) const {
     const auto u = small_shift(motion), theta = small_turn(motion);
     for (std::size_t p = 0; p < at.size(); ++p) {
       const Point& point = at[p];
       std::array<T, 6> total = small_strain(point, u, theta);
       const auto held = hold(p, total, balance);
+      total[0] -= T(free_stretch(p, time));
       if (section->damping > 0) {
         const auto rate = small_strain(point, velocities(motion), spins(motion));
         for (std::size_t c = 0; c < 6; ++c) total[c] += rate[c] * section->damping;
@@ -312,7 +329,7 @@ struct BeamPiece {
       for (std::size_t i = 0; i < Nodes; ++i) {
         balance.force(static_cast<int>(i), n * (point.length * point.slope[i]));
         const Vec3T<T> moment = turning * (point.length * point.shape[i]) + m * (point.length * point.slope[i]);
-        balance.moment(static_cast<int>(i), rotate_back(motion.node[i].R, moment));
+        balance.moment(static_cast<int>(i), moment_on_node(motion.node[i].R, moment));
       }
     }
   }

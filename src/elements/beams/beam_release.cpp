@@ -84,7 +84,7 @@ class ReleaseWriter {
     for (std::size_t i = 0; i < joints.size(); ++i) {
       const End& end = ends_[i];
       int& node = end.last ? beam.nodes.back() : beam.nodes.front();
-      made[i].nodes = {form_.new_node(), node};
+      made[i].nodes = {form_.add_node(end.place, {node, node}, 0), node};
       node = made[i].nodes[0];
       const auto axis = [&](std::size_t k) {
         const Vec3 e = end.axes.col(static_cast<Eigen::Index>(k));
@@ -92,7 +92,6 @@ class ReleaseWriter {
       };
       made[i].axis = axis(joints[i].axis);
       if (joints[i].second) made[i].second = axis(*joints[i].second);
-      form_.add(".NOE", node, deck::NodeCard{{end.place[0], end.place[1], end.place[2]}, 0});
     }
     form_.add("BEAM", form_.record.id, std::move(beam));
     for (std::size_t i = 0; i < joints.size(); ++i)

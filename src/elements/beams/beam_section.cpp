@@ -79,12 +79,13 @@ Mat6 strains_at(const Eigen::Vector2d& centroid, const Eigen::Vector2d& shear_ce
 
 /// Material of a shape; all zero for a section given by its stiffness.
 struct Stuff {
-  double young = 0, poisson = 0, density = 0, damping = 0;
+  double young = 0, poisson = 0, density = 0, damping = 0, expansion = 0;
 };
 
 BeamSection make_section(const deck::ProfileCard& card, const Stuff& stuff, const SectionChoice& choice) {
   BeamSection section;
   section.damping = choice.damping.value_or(stuff.damping);
+  section.expansion = stuff.expansion;
   Mat6 own = Mat6::Zero(), moved = Mat6::Identity();
   if (card.shape.given() || card.area) {
     const SectionShape shape = shape_of(card, stuff.poisson);
@@ -188,7 +189,8 @@ std::optional<SectionLine> SectionBook::make_line(const SectionChoice& choice, c
   if (has_shape) {
     const deck::MaterialCard* made_of = isotropic_material(context, choice.material, "beams");
     if (!made_of) return {};
-    stuff = {made_of->young.front(), made_of->poisson.front(), made_of->density.value_or(0), made_of->damping};
+    stuff = {made_of->young.front(), made_of->poisson.front(), made_of->density.value_or(0), made_of->damping,
+             made_of->expansion.empty() ? 0 : made_of->expansion.front()};
   }
   const auto first = std::make_shared<const BeamSection>(make_section(*card, stuff, choice));
   if (card == end) return SectionLine(first, nullptr);

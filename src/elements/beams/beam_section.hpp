@@ -26,6 +26,7 @@ struct BeamSection {
   double mass = 0;
   Vec3 center = Vec3::Zero();   ///< of mass; its first coordinate is 0
   Mat3 inertia = Mat3::Zero();  ///< tensor about the centre of mass
+  double expansion = 0;         ///< coefficient of thermal expansion
   double damping = 0;           ///< Kelvin–Voigt time c: forces are C (ε + c ε̇)
   bool is_round = false;        ///< invariant under rotation about axis 1: axes 2 and 3 are arbitrary
 

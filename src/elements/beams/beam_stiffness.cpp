@@ -30,8 +30,8 @@ Mat3 second_derivatives(const Vec3& psi, const Vec3& a, const Vec3& b, double f,
 ///     δγ = Eᵀ δh + γ × T δψ,   δk = T δψ′ + (T′ + k × T) δψ
 class Point {
  public:
-  Point(const BeamPlace<double>& at, const Mat3& axes)
-      : psi_(at.psi), slope_(at.psi_slope), h_(at.h), axes_(axes), f_(at.psi.squaredNorm()) {
+  Point(const BeamPlace<double>& at, const Mat3& axes, double free_stretch)
+      : psi_(at.psi), slope_(at.psi_slope), h_(at.h), axes_(axes), f_(at.psi.squaredNorm()), rest_(1 + free_stretch) {
     const Mat3 spin = skew(psi_), square = spin * spin;
     turn_ = axes + (f_.phi[1] * spin + f_.phi[2] * square) * axes;
     tangent_ = axes.transpose() * (Mat3::Identity() - f_.phi[2] * spin + f_.phi[3] * square);
@@ -39,9 +39,10 @@ class Point {
     k_ = tangent_ * slope_;
   }
 
+  /// The strains that cause stress.
   Vec6 strain() const {
     Vec6 strain;
-    strain << gamma_ - Vec3::UnitX(), k_;
+    strain << gamma_ - rest_ * Vec3::UnitX(), k_;
     return strain;
   }
   /// ∂ε/∂x.
@@ -112,14 +113,15 @@ class Point {
   const Vec3 psi_, slope_, h_;
   const Mat3& axes_;
   const RotationSeriesDerivatives f_;
+  const double rest_;  ///< first component of γ without stress
   Mat3 turn_, tangent_;
   Vec3 gamma_, k_;  // in the axes of the section
 };
 
 }  // namespace
 
-BeamStiffness::BeamStiffness(const BeamPlace<double>& at, const Mat3& axes, const Mat6& stiffness) {
-  const Point point(at, axes);
+BeamStiffness::BeamStiffness(const BeamPlace<double>& at, const Mat3& axes, const Mat6& stiffness, double free_stretch) {
+  const Point point(at, axes, free_stretch);
   const Mat69 strain_by = point.strain_by(), stress_by = stiffness.lazyProduct(strain_by);
   const Vec6 stress = stiffness * point.strain();
   force = strain_by.transpose() * stress;
@@ -127,9 +129,9 @@ BeamStiffness::BeamStiffness(const BeamPlace<double>& at, const Mat3& axes, cons
   point.add_stress(stress, by_place);
 }
 
-BeamStiffness::BeamStiffness(const BeamPlace<double>& at, const Mat3& axes, const Mat6& stiffness, const BeamPlace<double>& rates,
-                             double c) {
-  const Point point(at, axes);
+BeamStiffness::BeamStiffness(const BeamPlace<double>& at, const Mat3& axes, const Mat6& stiffness, double free_stretch,
+                             const BeamPlace<double>& rates, double c) {
+  const Point point(at, axes, free_stretch);
   Vec9 rate;
   rates.copy_to(rate.data());
   const Mat69 strain_by = point.strain_by(), stress_by = stiffness.lazyProduct(strain_by);

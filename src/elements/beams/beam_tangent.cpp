@@ -71,11 +71,14 @@ class BeamPiece<Nodes>::Tangent {
     force_.setZero();
     by_place_.setZero();
     by_rate_.setZero();
-    for (const Point& point : piece_.at) {
+    for (std::size_t p = 0; p < piece_.at.size(); ++p) {
+      const Point& point = piece_.at[p];
       const auto place = relative.at(point);
       const Mat6& stiffness = point.section->stiffness;
-      const BeamStiffness s = damped_ ? BeamStiffness(place, point.axes, stiffness, rates.at(point), piece_.section->damping)
-                                      : BeamStiffness(place, point.axes, stiffness);
+      const double free = piece_.free_stretch(p, state_.time);
+      const BeamStiffness s = damped_
+                                  ? BeamStiffness(place, point.axes, stiffness, free, rates.at(point), piece_.section->damping)
+                                  : BeamStiffness(place, point.axes, stiffness, free);
       for (Eigen::Index o = 0; o < Nodes - 1; ++o) {
         const double value = point.length * point.shape[node(o)], slope = point.length * point.slope[node(o)];
         force_.template segment<3>(6 * o) += slope * s.force.template head<3>();

@@ -36,6 +36,7 @@ class LineLoad final : public TemplatedElement<LineLoad<Nodes>, Nodes, 6 * Nodes
   }
 
   bool is_load() const override { return true; }
+  bool is_linear() const override { return !follow_; }
   Energies energies(const State& state) const override {
     Energies e;
     e.external = power(state);

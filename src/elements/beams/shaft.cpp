@@ -38,7 +38,6 @@ class ShaftWriter {
       number += static_cast<int>(beams.back().nodes.size() / 2);
     }
     if (!form_.has_numbers(number + static_cast<int>(data_.discs.size() + data_.wheels.size() + data_.bearings.size()))) return;
-    for (const auto& [id, x] : made_nodes_) form_.add(".NOE", id, deck::NodeCard{{x[0], x[1], x[2]}, 0});
     int id = form_.record.id;
     for (BeamData& beam : beams) {
       const int pieces = static_cast<int>(beam.nodes.size() / 2);
@@ -251,9 +250,11 @@ class ShaftWriter {
   }
 
   int make_node(double place) {
-    const int id = form_.new_node();
-    made_nodes_.emplace_back(id, form_.nodes.at(data_.nodes.front()) + place * axis_);
-    return id;
+    const auto next =
+        std::find_if(stations_.begin() + 1, stations_.end() - 1, [place](const Station& s) { return s.place > place; });
+    const Station &from = *(next - 1), &to = *next;
+    return form_.add_node(form_.nodes.at(data_.nodes.front()) + place * axis_, {from.node, to.node},
+                          (place - from.place) / (to.place - from.place));
   }
 
   /// Beam of a step: three-node pieces between its ends and the stations within it. Creates the missing nodes.
@@ -326,7 +327,6 @@ class ShaftWriter {
   Vec3 axis_ = Vec3::UnitX();
   double length_ = 0;
   std::vector<Station> stations_;
-  std::vector<std::pair<int, Vec3>> made_nodes_;
   int last_node_ = 0;  ///< end node of the previous step
 };
 

@@ -42,9 +42,10 @@ const deck::MaterialCard* isotropic_material(const BuildContext& context, int nu
   const deck::Record* found = material_record(context, number);
   if (!found) return nullptr;
   const auto* card = found->get<deck::MaterialCard>();
-  if (card->young.size() == 1 && card->poisson.size() == 1 && card->shear.empty()) return card;
-  context.error("MAT", fmt::format("material {} has no YT and NT of one value, which {} need", number, who),
-                "YT 2.1D11 NT 0.3 M 7850.");
+  if (card->young.size() == 1 && card->poisson.size() == 1 && card->shear.empty() && card->expansion.size() <= 1) return card;
+  const bool elastic = card->young.size() == 1 && card->poisson.size() == 1 && card->shear.empty();
+  context.error("MAT", fmt::format("material {} has no {} of one value, which {} need", number, elastic ? "A" : "YT and NT", who),
+                elastic ? "A 1.2D-5" : "YT 2.1D11 NT 0.3 M 7850.");
   return nullptr;
 }
 

@@ -4,9 +4,7 @@
 
 #include <cmath>
 
-#include "math/dual.hpp"
-#include "math/taylor.hpp"
-#include "math/vector.hpp"
+#include "math/linear_rotation.hpp"
 
 namespace engrane::elements {
 
@@ -20,7 +18,8 @@ struct RotationVector {
   Vec3T<T> theta;
   T kappa;
 
-  /// From a rotation matrix. Not defined at half a turn, where the vector changes sign.
+  /// From a rotation matrix. Not defined at half a turn, where the vector changes sign. A linear_rotation() has its own vector,
+  /// which changes by δφ.
   static RotationVector of(const Mat3T<T>& R);
 
   /// δθ for a spatial rotation δφ, or the rate of θ for an angular velocity.
@@ -44,6 +43,7 @@ struct RotationVector {
 template <class T>
 RotationVector<T> RotationVector<T>::of(const Mat3T<T>& R) {
   using std::atan2, std::sqrt;
+  if (is_linear_rotation(R)) return {linear_rotation_vector<T>(R), T(0)};
   // quaternion from its largest component (Shepperd, 1978), which avoids cancellation
   const double trace = value_of(R(0, 0)) + value_of(R(1, 1)) + value_of(R(2, 2));
   Vec3T<T> v;

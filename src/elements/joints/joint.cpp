@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
 #include "elements/common/building.hpp"
 #include "elements/common/slide_switches.hpp"
+#include "elements/joints/measure_names.hpp"
 #include "model/grip.hpp"
 
 namespace engrane::elements::joints {
@@ -34,51 +34,6 @@ bool looks_across_b(Measure m) {
   }
 }
 
-Dimension dimension_of(Measure m) {
-  switch (m) {
-    case Measure::gap_1:
-    case Measure::gap_2:
-    case Measure::gap_3:
-    case Measure::distance:
-    case Measure::screw:
-    case Measure::radius:
-      return dimension::length;
-    default:
-      return dimension::angle;
-  }
-}
-
-bool is_length(Measure m) { return dimension_of(m) == dimension::length; }
-
-Multiplier multiplier(Measure m) {
-  switch (m) {
-    case Measure::gap_1:
-      return {"FORCE_1", dimension::length, "force along the axis", Role::force};
-    case Measure::gap_2:
-      return {"FORCE_2", dimension::length, "force along the joint's second axis", Role::force};
-    case Measure::gap_3:
-      return {"FORCE_3", dimension::length, "force along the joint's third axis", Role::force};
-    case Measure::tilt_2:
-    case Measure::turn_2:
-      return {"MOMENT_2", dimension::angle, "moment about the joint's second axis", Role::moment};
-    case Measure::tilt_3:
-    case Measure::turn_3:
-      return {"MOMENT_3", dimension::angle, "moment about the joint's third axis", Role::moment};
-    case Measure::distance:
-      return {"THRUST", dimension::length, "force that pushes the points apart"};
-    case Measure::screw:
-      return {"THREAD_FORCE", dimension::length, "force of the thread along the axis"};
-    case Measure::pins:
-      return {"TORQUE", dimension::angle, "moment across both pins"};
-    case Measure::twist:
-      return {"TORQUE", dimension::angle, "torque from shaft to shaft"};
-    case Measure::radius:
-      return {"NORMAL_FORCE", dimension::length, "force away from the axis"};
-    default:
-      return {"MOMENT_1", dimension::angle, "moment about the axis", Role::moment};
-  }
-}
-
 /// Adds the grip of one joint friction, with names for its constraints.
 void name_grip(Layout& layout, const JointFriction& f) {
   const GripShape shape = f.shape();
@@ -95,9 +50,6 @@ void name_grip(Layout& layout, const JointFriction& f) {
   }
   add_grip(layout, named, shape);
 }
-
-bool rubs_along(const JointFriction& f) { return f.kind != Rubbing::journal && f.kind != Rubbing::ball; }
-bool rubs_round(const JointFriction& f) { return f.kind != Rubbing::guide && f.kind != Rubbing::drum && f.radius > 0; }
 
 /// Rate of a measure from the nodes' velocities, by its gradient.
 template <class T>
@@ -377,6 +329,15 @@ Joint::Observed Joint::observed(const JointCoordinate& c, const State& state) co
   return {m.value, rate_of(m, rates_of<double>(pose, state.nodes[0], state.nodes[1]))};
 }
 
+Joint::Load Joint::load_on_b(const State& state, const JointPose<double>& pose) const {
+  std::array<double, 20> r{};
+  residual(state, std::span(r).first(sweep().slots()));
+  const auto at_b = [&](int slot) { return Vec3(Eigen::Map<const Vec3>(&r[static_cast<std::size_t>(slot)])); };
+  const Vec3 force = -at_b(sweep().translation(1));
+  if (!parts_.frame.turns_b) return {force, Vec3::Zero()};
+  return {force, Vec3(-state.nodes[1].R * at_b(sweep().rotation(1)) - cross(pose.arm_b, force))};
+}
+
 Joint::Report Joint::rubbed(const State& state) const {
   Report report;
   if (parts_.friction.empty()) return report;
@@ -435,78 +396,6 @@ Energies Joint::energies(const State& state) const {
   return e;
 }
 
-void Joint::observe(const State& state, std::span<double> values) const {
-  std::array<double, 20> r{};
-  residual(state, std::span(r).first(sweep().slots()));
-  const NodeState& b = state.nodes[1];
-  const JointPose<double> pose(parts_.frame, state.nodes[0], b);
-  const auto at_b = [&](int slot) { return Vec3(Eigen::Map<const Vec3>(&r[static_cast<std::size_t>(slot)])); };
-  const Vec3 force = -at_b(sweep().translation(1));
-  const Vec3 moment =
-      parts_.frame.turns_b ? Vec3(-b.R * at_b(sweep().rotation(1)) - cross(pose.arm_b, force)) : Vec3(Vec3::Zero());
-
-  std::size_t i = 0;
-  for (const JointCoordinate& c : parts_.coordinates) {
-    const Observed o = observed(c, state);
-    values[i++] = o.value;
-    values[i++] = o.rate;
-  }
-  const std::array axes = {pose.a1, pose.a2, pose.a3};
-  const auto write = [&](const Vec3& v) {
-    for (Eigen::Index c = 0; c < 3; ++c) values[i++] = v[c];
-    if (parts_.has_axis)
-      for (const Vec3& e : axes) values[i++] = v.dot(e);
-  };
-  write(force);
-  if (parts_.has_moment) write(moment);
-  if (parts_.has_axial) values[i++] = force.dot(axes[0]);
-  if (parts_.is_bearing) {
-    values[i++] = std::hypot(force.dot(axes[1]), force.dot(axes[2]));
-    if (parts_.has_moment) values[i++] = std::hypot(moment.dot(axes[1]), moment.dot(axes[2]));
-  }
-  if (parts_.has_thrust) values[i++] = force.dot(pose.gap) / pose.gap.norm();
-  if (!parts_.has_axis) values[i++] = force.norm();
-  if (parts_.has_bend) values[i++] = std::atan2(cross(pose.a1, pose.b1).norm(), pose.a1.dot(pose.b1));
-  if (!parts_.normal_channel.empty()) values[i++] = state.multipliers[0];
-  std::size_t row = parts_.constraints.size();
-  for (const JointCoordinate& c : parts_.coordinates) {
-    const Observed o = observed(c, state);
-    if (c.sprung()) values[i++] = c.spring(o.value, o.rate, state.time, 0);
-    if (c.drive.given()) {
-      const double effort = state.multipliers[row++];
-      values[i++] = effort;
-      values[i++] = effort * c.drive.rate(state.time);
-    }
-    if (c.stop.given()) {
-      values[i++] = c.stop.push(o.value, o.rate, 0);
-      values[i++] = c.stop.gap(o.value);
-    }
-  }
-  const Report report = rubbed(state);
-  for (std::size_t f = 0; f < report.size(); ++f) {
-    values[i++] = report[f].normal;
-    if (rubs_along(parts_.friction[f])) values[i++] = report[f].force.norm();
-    if (rubs_round(parts_.friction[f])) values[i++] = report[f].moment.norm();
-    values[i++] = report[f].power;
-  }
-}
-
-std::vector<Joint::Determined> Joint::determined() const {
-  std::vector<Determined> all = gaps_;
-  for (std::size_t k = 0; k < parts_.coordinates.size(); ++k)
-    if (parts_.coordinates[k].drive.given())
-      for (const int i : {0, 1}) all.push_back({static_cast<int>(2 * k) + i});
-  return all;
-}
-
-double Joint::determine(int channel, double time, std::span<const double> coordinate) const {
-  const auto owner = [this](int of) -> const JointCoordinate& { return parts_.coordinates[static_cast<std::size_t>(of / 2)]; };
-  for (const Determined& gap : gaps_)
-    if (gap.channel == channel) return owner(gap.sources[0]).stop.gap(coordinate[0]);
-  const JointCoordinate& driven = owner(channel);
-  return channel % 2 == 1 ? driven.drive.rate(time) : driven.drive.coordinate(time) + driven_origin(driven);
-}
-
 std::vector<Coordinate> Joint::coordinates() const {
   std::vector<Coordinate> all;
   for (const JointCoordinate& c : parts_.coordinates)
@@ -533,61 +422,6 @@ Drawing Joint::drawing() const {
                         json(parts_.frame.e1))};
   if (a != 0 && b != 0) return {fmt::format(R"("shape": "line", "points": {})", json(layout().nodes))};
   return {};
-}
-
-void Joint::name_channels() {
-  for (const JointCoordinate& c : parts_.coordinates) {
-    const bool length = is_length(c.measure);
-    channels_.push_back({c.names.value, length ? dimension::length : dimension::angle,
-                         length ? "position of B from A in the joint" : "turn of B from A, whole turns counted"});
-    channels_.push_back({c.names.rate, length ? dimension::velocity : dimension::angular_velocity, "rate of " + c.names.value});
-  }
-  const auto name = [this](const std::string& what, Dimension d, const std::string& where) {
-    for (const char* c : {"_X", "_Y", "_Z"}) channels_.push_back({what + c, d, where + ", global"});
-    if (parts_.has_axis)
-      for (const char* c : {"_1", "_2", "_3"}) channels_.push_back({what + c, d, where + ", joint axes"});
-  };
-  name("FORCE", dimension::force, "force of the joint on B");
-  if (parts_.has_moment) name("MOMENT", dimension::moment, "moment of the joint on B at the joint point");
-  if (parts_.has_axial) channels_.push_back({"AXIAL_FORCE", dimension::force, "force on B along the axis"});
-  if (parts_.is_bearing) {
-    channels_.push_back({"RADIAL_FORCE", dimension::force, "size of the force on B across the axis", Channel::Course::size});
-    if (parts_.has_moment)
-      channels_.push_back(
-          {"BENDING_MOMENT", dimension::moment, "size of the moment on B across the axis", Channel::Course::size});
-  }
-  if (parts_.has_thrust) channels_.push_back({"THRUST", dimension::force, "force that pushes the ends apart"});
-  if (!parts_.has_axis)
-    channels_.push_back({"FORCE_SIZE", dimension::force, "size of the force of the joint on B", Channel::Course::size});
-  if (parts_.has_bend) channels_.push_back({"BEND", dimension::angle, "angle between the shafts", Channel::Course::size});
-  if (!parts_.normal_channel.empty())
-    channels_.push_back({parts_.normal_channel, is_length(parts_.constraints[0].measure) ? dimension::force : dimension::moment,
-                         multiplier(parts_.constraints[0].measure).help});
-  for (std::size_t k = 0; k < parts_.coordinates.size(); ++k) {
-    const JointCoordinate& c = parts_.coordinates[k];
-    const bool length = is_length(c.measure);
-    const Dimension effort = length ? dimension::force : dimension::moment;
-    if (c.sprung()) channels_.push_back({c.names.spring, effort, "of spring and damper on B"});
-    if (c.drive.given()) {
-      channels_.push_back({c.names.drive, effort, "of the drive on B, the opposite on A"});
-      channels_.push_back({c.names.power, dimension::power, "power that the drive gives to the mechanism"});
-    }
-    if (c.stop.given()) {
-      channels_.push_back({c.names.stop, effort, "of the stops on B; positive pushes the coordinate up"});
-      if (c.stop.two_sided()) gaps_.push_back({static_cast<int>(channels_.size()), {static_cast<int>(2 * k)}});
-      channels_.push_back({c.names.gap, length ? dimension::length : dimension::angle, "to the nearer stop; negative: pressed"});
-    }
-  }
-  for (const JointFriction& f : parts_.friction) {
-    channels_.push_back({"PRESSING_FORCE" + f.suffix, dimension::force,
-                         "sum of the forces that press the rubbing surfaces together", Channel::Course::size});
-    if (rubs_along(f))
-      channels_.push_back({"FRICTION_FORCE" + f.suffix, dimension::force, "size of the friction force", Channel::Course::size});
-    if (rubs_round(f))
-      channels_.push_back(
-          {"FRICTION_MOMENT" + f.suffix, dimension::moment, "size of the friction moment", Channel::Course::size});
-    channels_.push_back({"FRICTION_POWER" + f.suffix, dimension::power, "power lost in friction", Channel::Course::size});
-  }
 }
 
 }  // namespace engrane::elements::joints

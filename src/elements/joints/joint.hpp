@@ -128,6 +128,11 @@ class Joint final : public TemplatedElement<Joint, 2, 20>, public CoordinateOwne
     double value, rate;
   };
   Observed observed(const JointCoordinate& c, const State& state) const;
+  /// Force and moment of the joint on B at the joint point, global.
+  struct Load {
+    Vec3 force, moment;
+  };
+  Load load_on_b(const State& state, const JointPose<double>& pose) const;
   Report rubbed(const State& state) const;
   void name_channels();
 

@@ -8,6 +8,7 @@
 
 #include "elements/common/axis_angle.hpp"
 #include "elements/common/building.hpp"
+#include "model/outside_force.hpp"
 #include "model/templated_element.hpp"
 
 namespace engrane::elements::joints {
@@ -18,7 +19,7 @@ constexpr int most_nodes = 6;
 
 /// Φ = Σ aᵢ uᵢ − V f(t). A displacement is a global component measured from the node's reference position; a rotation is the
 /// node's angle about a global axis (axis_angle), with turns counted.
-class LinearRelation final : public TemplatedElement<LinearRelation, most_nodes, 6 * most_nodes + 1> {
+class LinearRelation final : public TemplatedElement<LinearRelation, most_nodes, 6 * most_nodes + 1>, public OutsideForce {
  public:
   struct Term {
     std::size_t node = 0;  ///< index into the layout
@@ -82,6 +83,10 @@ class LinearRelation final : public TemplatedElement<LinearRelation, most_nodes,
     return e;
   }
 
+  bool is_linear() const override {
+    return std::none_of(terms_.begin(), terms_.end(), [](const Term& t) { return t.turns(); });
+  }
+
   const std::vector<Channel>& channels() const override { return channels_; }
 
   void observe(const State& state, std::span<double> values) const override {
@@ -127,6 +132,12 @@ class LinearRelation final : public TemplatedElement<LinearRelation, most_nodes,
   std::vector<Channel> channels_;
 };
 
+/// The need of two terms of one node.
+NodeNeed both_of(NodeNeed a, NodeNeed b) {
+  if (a == b) return a;
+  return a == NodeNeed::rotation || b == NodeNeed::rotation || a == NodeNeed::both ? NodeNeed::both : NodeNeed::translation;
+}
+
 std::unique_ptr<Element> build_linear_relation(const LinearRelationData& data, BuildContext& context) {
   const Function* function = nullptr;
   if (!find_function(context, data.function, function)) return nullptr;
@@ -154,12 +165,13 @@ std::unique_ptr<Element> build_linear_relation(const LinearRelationData& data, B
       }
     const auto found = std::find(layout.nodes.begin(), layout.nodes.end(), node);
     const auto at = static_cast<std::size_t>(found - layout.nodes.begin());
-    const NodeNeed need = component < 3 ? NodeNeed::translation : NodeNeed::rotation;
+    // nodes of plane cells have no z translation
+    const NodeNeed need = component < 2 ? NodeNeed::in_plane : component < 3 ? NodeNeed::translation : NodeNeed::rotation;
     if (found == layout.nodes.end()) {
       layout.nodes.push_back(node);
       layout.needs.push_back(need);
-    } else if (layout.needs[at] != need) {
-      layout.needs[at] = NodeNeed::both;
+    } else {
+      layout.needs[at] = both_of(layout.needs[at], need);
     }
     LinearRelation::Term term{at, component, data.coefficients[i]};
     if (term.turns()) {

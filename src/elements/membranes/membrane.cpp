@@ -65,8 +65,9 @@ std::unique_ptr<Element> build(const MembraneData& data, BuildContext& context) 
   if (data.wrinkling) section.law.wrinkling = data.slack;
   std::vector<Vec3> places;
   for (const int node : data.nodes) places.push_back(context.nodes.at(node));
+  const NodeWarmth warmth = warmth_of(data.nodes, section.law.expansion != 0, "membrane", context);
   auto membrane = make_membrane(context.record.id, *shape, data.nodes, places,
-                                std::make_shared<const MembraneSection>(std::move(section)), context.blocks);
+                                std::make_shared<const MembraneSection>(std::move(section)), warmth, context.blocks);
   if (!membrane)
     context.error("N", fmt::format("membrane {} is folded over, or has no area", context.record.id),
                   "its corners must go round it in turn, and a middle of a side must be near the middle");

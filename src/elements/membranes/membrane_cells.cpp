@@ -38,6 +38,7 @@ class Membranes final : public Block {
     std::array<int, static_cast<std::size_t>(N)> nodes;
     Places places;
     std::shared_ptr<const MembraneSection> section;
+    NodeWarmth warmth;
   };
 
   /// Current state at a point.
@@ -57,11 +58,12 @@ class Membranes final : public Block {
   }
 
   std::optional<std::size_t> add(const std::vector<int>& nodes, const std::vector<Vec3>& places,
-                                 const std::shared_ptr<const MembraneSection>& section) {
+                                 const std::shared_ptr<const MembraneSection>& section, const NodeWarmth& warmth) {
     Cell cell;
     std::copy_n(nodes.begin(), N, cell.nodes.begin());
     for (Eigen::Index i = 0; i < N; ++i) cell.places.col(i) = places[static_cast<std::size_t>(i)];
     cell.section = section;
+    cell.warmth = warmth;
     if (!is_regular(cell.places)) return {};
     cells_.push_back(std::move(cell));
     return cells_.size() - 1;
@@ -95,8 +97,10 @@ class Membranes final : public Block {
     Energies sum;
     for (const Sample& s : samples()) {
       const Point p = point(cell.places, s);
-      const Local local = this->local(section, x, p);
+      const Local local = this->local(cell, state.time, x, p);
       sum.strain += p.area * section.thickness * local.response.energy;
+      sum.external += p.area * section.thickness * local.response.by_growth * section.law.expansion *
+                      rise_rate_at(cell.warmth, p.value, state.time);
       sum.add_weight(state, p.area * mass, x * p.value, v * p.value);
       sum.kinetic += p.area * mass / 2 * (v * p.value).squaredNorm();
       sum.external += p.area * pressure * normal(local).dot(v * p.value);
@@ -122,7 +126,7 @@ class Membranes final : public Block {
     const Places x = places_of(state);
     const std::size_t count = samples().size();
     for (std::size_t i = 0; i < count; ++i) {
-      const Local local = this->local(*cell.section, x, point(cell.places, samples()[i]));
+      const Local local = this->local(cell, state.time, x, point(cell.places, samples()[i]));
       // σ = F S Fᵀ/J has the same principal values as S FᵀF/J
       const Eigen::Matrix2d C = local.F.transpose() * local.F;
       const Eigen::Matrix2d mixed = local.stress() * C / (local.response.area * local.response.thinning);
@@ -178,11 +182,12 @@ class Membranes final : public Block {
 
   static Vec3 normal(const Local& local) { return cross(Vec3(local.F.col(0)), Vec3(local.F.col(1))); }
 
-  static Local local(const MembraneSection& section, const Places& x, const Point& p) {
+  static Local local(const Cell& cell, double time, const Places& x, const Point& p) {
     Local l;
     l.F.noalias() = x * p.gradient.transpose();
     const Plane strain((l.F.col(0).squaredNorm() - 1) / 2, (l.F.col(1).squaredNorm() - 1) / 2, l.F.col(0).dot(l.F.col(1)));
-    l.response = respond(section.law, strain);
+    const MembraneLaw& law = cell.section->law;
+    l.response = respond(law, strain, law.expansion * rise_at(cell.warmth, p.value, time));
     return l;
   }
 
@@ -200,7 +205,7 @@ class Membranes final : public Block {
     if (k) sum.fill(Mat3::Zero());
     for (const Sample& s : samples()) {
       const Point p = point(cell.places, s);
-      const Local local = Membranes::local(section, x, p);
+      const Local local = Membranes::local(cell, state.time, x, p);
       const double volume = p.area * section.thickness;
       const Eigen::Matrix<double, 2, N> pulled = local.stress() * p.gradient;
       out.noalias() += (volume * local.F).lazyProduct(pulled);
@@ -270,12 +275,13 @@ class Membranes final : public Block {
 }  // namespace
 
 std::unique_ptr<Element> make_membrane(int id, CellShape shape, const std::vector<int>& nodes, const std::vector<Vec3>& places,
-                                       const std::shared_ptr<const MembraneSection>& section, BlockStore* blocks) {
+                                       const std::shared_ptr<const MembraneSection>& section, const NodeWarmth& warmth,
+                                       BlockStore* blocks) {
   return structural::with_plane_shape(shape, [&]<CellShape S>() -> std::unique_ptr<Element> {
     BlockStore alone;
     const bool wrinkles = section->law.wrinkling.has_value();
     const auto block = (blocks ? *blocks : alone).block<Membranes<S>>(wrinkles ? "wrinkles" : "", wrinkles);
-    const auto index = block->add(nodes, places, section);
+    const auto index = block->add(nodes, places, section, warmth);
     return index ? std::make_unique<BlockMember>(id, block, *index) : nullptr;
   });
 }

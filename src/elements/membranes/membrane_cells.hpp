@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "elements/common/warmth.hpp"
 #include "elements/membranes/membrane_law.hpp"
 #include "model/block.hpp"
 #include "model/function.hpp"
@@ -25,6 +26,7 @@ struct MembraneSection {
 /// Adds a membrane with 3, 6, 4 or 8 nodes to the block of its shape, or to a block of its own if `blocks` is nullptr. Returns
 /// nullptr if its surface is folded or has no area.
 std::unique_ptr<Element> make_membrane(int id, CellShape shape, const std::vector<int>& nodes, const std::vector<Vec3>& places,
-                                       const std::shared_ptr<const MembraneSection>& section, BlockStore* blocks);
+                                       const std::shared_ptr<const MembraneSection>& section, const NodeWarmth& warmth,
+                                       BlockStore* blocks);
 
 }  // namespace engrane::elements::membranes

@@ -21,5 +21,5 @@ MembraneSection section_of(const structural::CellSection& cell) {
 
 std::unique_ptr<engrane::Element> engrane::elements::structural::make_skin(const CellPlan& plan, BlockStore* blocks) {
   auto section = std::make_shared<const membranes::MembraneSection>(membranes::section_of(*plan.section));
-  return membranes::make_membrane(plan.id, plan.shape, plan.nodes, plan.places, std::move(section), blocks);
+  return membranes::make_membrane(plan.id, plan.shape, plan.nodes, plan.places, std::move(section), plan.warmth, blocks);
 }

@@ -77,19 +77,6 @@ bool fits_plane(const CellPlan& plan, BuildContext& context) {
   return false;
 }
 
-/// Temperatures of the nodes; nullptr if none of them has one.
-std::shared_ptr<const std::vector<Warmth>> warmth_of(const std::vector<int>& nodes, const BuildContext& context) {
-  if (!context.temperatures || context.temperatures->empty()) return nullptr;
-  std::vector<Warmth> found(nodes.size());
-  bool any = false;
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    if (const auto at = context.temperatures->find(nodes[i]); at != context.temperatures->end()) {
-      found[i] = at->second;
-      any = true;
-    }
-  return any ? std::make_shared<const std::vector<Warmth>>(std::move(found)) : nullptr;
-}
-
 /// Whether the centrifugal load of a cell has no component out of its plane; otherwise reports an error. Also warns, once per
 /// model, about cells without density.
 bool fits_rotation(const CellPlan& plan, BuildContext& context) {
@@ -133,16 +120,12 @@ std::unique_ptr<Element> build(const CellData& data, BuildContext& context) {
   if (!cell || !section) return nullptr;
   CellPlan plan{context.record.id, cell->shape, std::move(cell->nodes), {}, section};
   for (const int id : plan.nodes) plan.places.push_back(context.nodes.at(id));
+  plan.warmth = warmth_of(plan.nodes, !section->law.expansion.isZero(0), "cell", context);
   if (section->skin) {
     auto skin = make_skin(plan, context.blocks);
     if (!skin) context.error("N", fmt::format("membrane {} is folded over, or has no area", plan.id), how_skin);
     return skin;
   }
-  plan.warmth = warmth_of(plan.nodes, context);
-  if (plan.warmth && section->law.expansion.isZero(0))
-    context.diagnostics.warning_once("warm", context.record.location,
-                                     fmt::format("the material of cell {} does not expand: TEMP has no effect on it", plan.id),
-                                     "A of its .MAT is the coefficient of thermal expansion");
   plan.rotation = CellBook::of(context)->rotation(plan.id);
   if (plan.rotation && !fits_rotation(plan, context)) return nullptr;
   if (!is_solid(plan.shape)) return fits_plane(plan, context) ? make_plane_cell(plan, context.blocks) : nullptr;

@@ -5,6 +5,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -53,6 +55,27 @@ std::string names_of(const std::vector<std::string>& groups) {
   return groups.empty() ? "all cells" : (groups.size() == 1 ? "group " : "groups ") + names;
 }
 
+/// Material axes at a place, as columns: those of a frame, which must exist (0: global ones), turned about the third.
+Mat3 axes_at(const Frames& frames, int frame, double degrees, const Vec3& place) {
+  const Mat3 axes = frame == 0 ? Mat3::Identity() : *frames.axes_at(frame, place);
+  return axes * Eigen::AngleAxisd(degrees * degree, Vec3::UnitZ()).toRotationMatrix();
+}
+
+/// Places of the corners of a cell that exist.
+std::vector<Vec3> corners_of(const deck::Record& cell, const NodePositions& nodes) {
+  std::vector<Vec3> places;
+  for (const int id : cell.get<CellData>()->nodes)
+    if (id > 0 && nodes.contains(id)) places.push_back(nodes.at(id));
+  return places;
+}
+
+/// Mean of the corners; the origin if there are none.
+Vec3 middle_of(const deck::Record& cell, const NodePositions& nodes) {
+  const std::vector<Vec3> corners = corners_of(cell, nodes);
+  const Vec3 sum = std::accumulate(corners.begin(), corners.end(), Vec3(Vec3::Zero()));
+  return corners.empty() ? sum : Vec3(sum / static_cast<double>(corners.size()));
+}
+
 }  // namespace
 
 CellBook::CellBook(const BuildContext& context)
@@ -61,13 +84,15 @@ CellBook::CellBook(const BuildContext& context)
       lumped_(deck::has_lumped_masses(*context.records)) {
   const std::vector<deck::Record>& records = *context.records;
   read_cells(records);
-  read_groups(records);
+  read_groups(records, context.nodes);
   read_properties(records);
   number_parts(records);
   read_rotations(context);
   make_sections(context.nodes);
-  check_beams(context.temperatures);
-  if (context.temperatures) refuse_warm(*context.temperatures);
+  check_beams();
+  check_weight(records);
+  look_at_axes();
+  if (context.temperatures) refuse_cold(*context.temperatures);
 }
 
 std::shared_ptr<const CellBook> CellBook::of(const BuildContext& context) {
@@ -98,13 +123,6 @@ const deck::Record* CellBook::record(int cell) const {
   return found ? found->record : nullptr;
 }
 
-std::vector<int> CellBook::cells(const std::string& group) const {
-  std::vector<int> ids;
-  if (const auto found = groups_.find(group); found != groups_.end())
-    for (const std::size_t i : found->second) ids.push_back(cells_[i].record->id);
-  return ids;
-}
-
 std::shared_ptr<const CellSection> CellBook::section(int cell) const {
   const Cell* found = find(cell);
   return found ? found->section : nullptr;
@@ -122,58 +140,6 @@ bool CellBook::is_beam(const Cell& cell) { return line_of(cell.record->get<CellD
 std::shared_ptr<const CellRotation> CellBook::rotation(int cell) const {
   const Cell* found = find(cell);
   return found ? found->rotation : nullptr;
-}
-
-const std::vector<int>* CellBook::faces(const std::string& group) const {
-  const auto found = faces_.find(group);
-  return found == faces_.end() ? nullptr : &found->second;
-}
-
-void CellBook::read_groups(const std::vector<deck::Record>& records) {
-  std::map<int, Group> so_far;  // groups by GroupCard::group: what the records up to here give them
-  std::map<int, std::vector<int>> faces_of;
-  for (const deck::Record& record : records) {
-    const auto* card = record.get<deck::GroupCard>();
-    if (card && card->kind.is("FACES")) {
-      std::vector<int>& faces = faces_of[card->group];
-      faces.insert(faces.end(), card->ids.begin(), card->ids.end());
-      for (const std::string& name : card->names) faces_[name] = faces;
-    }
-    if (!card || !card->kind.is("ELEMENTS")) continue;
-    Group& group = so_far[card->group];
-    const auto chosen = [&](const Cell& cell) {
-      if (card->all) return true;
-      const std::vector<int>& attribute = cell.record->get<CellData>()->attribute;
-      return card->attribute && !attribute.empty() && attribute.front() == *card->attribute;
-    };
-    for (std::size_t i = 0; (card->all || card->attribute) && i < cells_.size(); ++i)
-      if (chosen(cells_[i])) group.push_back(i);
-    for (const int id : card->ids)  // a group may also contain elements that are not cells
-      if (const std::size_t at = index(id); at < cells_.size()) group.push_back(at);
-    for (const std::string& name : card->united)
-      if (const auto other = groups_.find(name); other != groups_.end())
-        group.insert(group.end(), other->second.begin(), other->second.end());
-    std::sort(group.begin(), group.end());
-    group.erase(std::unique(group.begin(), group.end()), group.end());
-    for (const std::string& name : card->names) groups_[name] = group;
-  }
-}
-
-CellBook::Group CellBook::members(const deck::Record& record, const std::vector<std::string>& names) {
-  Group all;
-  for (const std::string& name : names) {
-    const auto found = groups_.find(name);
-    if (found != groups_.end()) {
-      all.insert(all.end(), found->second.begin(), found->second.end());
-      continue;
-    }
-    std::vector<std::string> known;
-    for (const auto& [key, group] : groups_) known.push_back(key);
-    const std::string near = nearest(name, known);
-    diagnostics_.missing(".SEL", record.where("GROUP"), fmt::format("there is no group of elements \"{}\"", name),
-                         near.empty() ? "declare it with .SEL GROUP n MAILLES" : fmt::format("did you mean \"{}\"?", near));
-  }
-  return all;
 }
 
 void CellBook::read_properties(const std::vector<deck::Record>& records) {
@@ -269,7 +235,7 @@ void CellBook::read_rotations(const BuildContext& context) {
 }
 
 void CellBook::assign(const deck::Record& record, const deck::AssignmentCard& assignment) {
-  Group group = members(record, assignment.groups);
+  Group group = members(record, assignment.groups, !assignment.cells.empty());
   for (const int id : assignment.cells)
     if (const std::size_t at = index(id); at < cells_.size())
       group.push_back(at);
@@ -309,49 +275,47 @@ void CellBook::report_lack(const Lacks& lacks, const std::string& what, const st
   if (count > 0) diagnostics_.error(first->record->location, fmt::format("cell {} {}{}", first->record->id, what, others), cure);
 }
 
-void CellBook::refuse_warm(const Temperatures& temperatures) {
+void CellBook::refuse_cold(const Temperatures& temperatures) {
   const auto is_warm = [&](int node) { return temperatures.contains(std::abs(node)); };
-  const auto any_warm = [&](const Cell& cell) {
-    const std::vector<int>& nodes = cell.record->get<CellData>()->nodes;
-    return std::any_of(nodes.begin(), nodes.end(), is_warm);
-  };
-  const auto skin = [&](const Cell& cell) { return cell.section && cell.section->skin && any_warm(cell); };
   // without the function of time
   const auto vanishes = [&](const Cell& cell) {
-    if (!cell.section || cell.section->skin || !cell.section->law.neo_hookean) return false;
+    if (!cell.section || !cell.section->law.neo_hookean) return false;
     const double expansion = cell.section->law.expansion[0];
     const std::vector<int>& nodes = cell.record->get<CellData>()->nodes;
     return std::any_of(nodes.begin(), nodes.end(),
                        [&](int node) { return is_warm(node) && expansion * temperatures.at(std::abs(node)).rise <= -1; });
   };
-  report_lack(skin, "is a membrane and has warm nodes: thermal expansion of membranes is not in this version",
-              "leave these nodes out of TEMP");
   report_lack(vanishes, "shrinks to nothing: its temperature rise times A is -1 or less",
               "A of its .MAT is per degree, such as 2E-4 for rubber");
 }
 
-std::optional<Mat3> CellBook::axes_of(const Cell& cell, const NodePositions& nodes) {
-  Mat3 axes = Mat3::Identity();
-  if (cell.frame != 0) {
-    Vec3 middle = Vec3::Zero();
-    int count = 0;
-    for (const int id : cell.record->get<CellData>()->nodes)
-      if (id > 0 && nodes.contains(id)) {
-        middle += nodes.at(id);
-        ++count;
-      }
-    const auto found = frames_.axes_at(cell.frame, count > 0 ? Vec3(middle / count) : middle);
-    if (!found) {
-      diagnostics_.missing(".FRAME", cell.axes->where("FRAME"), fmt::format("frame {} does not exist", cell.frame),
-                           fmt::format("declare it with .FRAME I {}", cell.frame));
-      return {};
-    }
-    axes = *found;
-  }
-  return Mat3(axes * Eigen::AngleAxisd(cell.theta.value_or(0) * degree, Vec3::UnitZ()).toRotationMatrix());
+bool CellBook::has_curved_axes(const Cell& cell) const {
+  return frames_.is_curved(cell.frame) && cell.material->get<deck::MaterialCard>()->young.size() != 1;
 }
 
-std::shared_ptr<const CellSection> CellBook::make_section(const Cell& cell, Hypothesis hypothesis, const Mat3& axes, int number) {
+bool CellBook::is_plane(const Cell& cell, const Vec3& middle, const NodePositions& nodes) {
+  const auto found = elastic_.find({cell.material->id, cell.section->hypothesis});
+  const auto is_plane_at = [&](const Vec3& place) {
+    const Mat3 axes = axes_at(frames_, cell.frame, cell.theta.value_or(0), place);
+    return materials::is_plane(materials::turned(*found->second, axes));
+  };
+  bool plane = is_plane_at(middle);
+  // not at the corners themselves: there may be no axes at one of them
+  if (cell.section->curved)
+    for (const Vec3& corner : corners_of(*cell.record, nodes)) plane = plane && is_plane_at((middle + corner) / 2);
+  if (!plane && unsuitable_.insert(cell.material->id).second)
+    diagnostics_.error(cell.axes->where("FRAME"), fmt::format("the axes of material {} lead out of the plane", cell.material->id),
+                       "of a plane cell one axis of the material is z");
+  return plane;
+}
+
+std::shared_ptr<const CellSection> CellBook::make_section(const Cell& cell, Hypothesis hypothesis, const Vec3& middle,
+                                                          int number) {
+  if (cell.frame != 0 && !frames_.axes_at(cell.frame, middle)) {
+    diagnostics_.missing(".FRAME", cell.axes->where("FRAME"), fmt::format("frame {} does not exist", cell.frame),
+                         fmt::format("declare it with .FRAME I {}", cell.frame));
+    return nullptr;
+  }
   const auto [entry, fresh] = elastic_.try_emplace({cell.material->id, hypothesis});
   if (fresh) entry->second = elastic_of(*cell.material, hypothesis, diagnostics_);
   if (!entry->second) return nullptr;
@@ -370,20 +334,21 @@ std::shared_ptr<const CellSection> CellBook::make_section(const Cell& cell, Hypo
                          "a .MAT without DAMPING for the cells that are membranes");
     return nullptr;
   }
-  const materials::Elastic material = materials::turned(*entry->second, axes);
-  if (hypothesis != Hypothesis::solid && !skin && !materials::is_plane(material)) {
-    if (unsuitable_.insert(cell.material->id).second)
-      diagnostics_.error(cell.axes->where("FRAME"),
-                         fmt::format("the axes of material {} lead out of the plane", cell.material->id),
-                         "of a plane cell one axis of the material is z");
-    return nullptr;
-  }
-  materials::Elasticity law = materials::law_of(hypothesis, material);
+  const double theta = cell.theta.value_or(0);
+  const materials::Elastic& material = *entry->second;
+  materials::Elasticity law =
+      materials::law_of(hypothesis, materials::turned(material, axes_at(frames_, cell.frame, theta, middle)));
   if (linear_) law.neo_hookean.reset();  // small displacements use its tangent at rest, `stiffness`
   const bool has_thickness = hypothesis == Hypothesis::plane_stress || hypothesis == Hypothesis::plane_strain;
   auto section = std::make_shared<CellSection>(
       CellSection{hypothesis, law, has_thickness && cell.thickness > 0 ? cell.thickness : 1.0, linear_, number, lumped_});
   if (skin) section->skin = SkinOptions{skin->tension, skin->wrinkling, skin->slack};
+  if (!skin && has_curved_axes(cell)) {
+    const auto axes = [frames = frames_, frame = cell.frame, theta](const Vec3& place) {
+      return axes_at(frames, frame, theta, place);
+    };
+    section->curved = CurvedLaw{hypothesis, material, axes, middle[2]};
+  }
   return section;
 }
 
@@ -411,7 +376,7 @@ void CellBook::make_sections(const NodePositions& nodes) {
   report_lack([](const Cell& cell) { return !is_beam(cell) && !cell.material; }, "has no material", ".AEL I 1 J 9 K 1 MAT 1");
   report_lack([&](const Cell& cell) { return is_stress(cell) && cell.thickness == 0; }, "has no thickness",
               "plane stress needs .PHP GROUP \"name\" THICK VAL t");
-  using Key = std::tuple<Hypothesis, int, double, double, int, const deck::Record*, int>;
+  using Key = std::tuple<Hypothesis, int, double, double, int, const deck::Record*, int, double>;
   std::map<Key, std::shared_ptr<const CellSection>> sections;
   std::map<Key, int> numbers;
   for (Cell& cell : cells_) {
@@ -419,27 +384,29 @@ void CellBook::make_sections(const NodePositions& nodes) {
     const bool has_material = cell.material && cell.material->get<deck::MaterialCard>();
     if (is_beam(cell) || !formulation || !fits(cell) || !has_material || (is_stress(cell) && cell.thickness == 0)) continue;
     const deck::Record* skin = skin_card(cell.hypothesis) ? cell.hypothesis : nullptr;
-    const bool alone = !skin && frames_.is_curved(cell.frame);  // axes differ from cell to cell
-    const Key key{*formulation, cell.material->id, cell.thickness, cell.theta.value_or(0), cell.frame, skin, cell.part};
+    const bool is_flat = *formulation != Hypothesis::solid && !skin;
+    const Vec3 middle = middle_of(*cell.record, nodes);
+    // curved axes depend on the height of a plane cell
+    const double height = is_flat && has_curved_axes(cell) ? middle[2] : 0;
+    const Key key{*formulation, cell.material->id, cell.thickness, cell.theta.value_or(0), cell.frame, skin, cell.part, height};
     Key group = key;
+    std::get<7>(group) = 0;
     // isotropic: axes, which decks may give cell by cell, do not matter
     if (cell.material->get<deck::MaterialCard>()->young.size() == 1) {
       std::get<3>(group) = 0;
       std::get<4>(group) = 0;
     }
     const int number = numbers.try_emplace(group, static_cast<int>(numbers.size())).first->second;
-    if (!alone)
-      if (const auto known = sections.find(key); known != sections.end()) {
-        cell.section = known->second;
-        continue;
-      }
-    if (const auto axes = axes_of(cell, nodes)) cell.section = make_section(cell, *formulation, *axes, number);
-    if (!alone) sections.emplace(key, cell.section);
+    const auto [known, fresh] = sections.try_emplace(key);
+    if (fresh) known->second = make_section(cell, *formulation, middle, number);
+    cell.section = known->second;
+    if (is_flat && cell.section && (fresh || cell.section->curved) && !is_plane(cell, middle, nodes))
+      cell.section = known->second = nullptr;
   }
 }
 
 /// Reports missing properties of beams, and properties that have no meaning for a cell.
-void CellBook::check_beams(const Temperatures* temperatures) {
+void CellBook::check_beams() {
   const auto formulated = [](const Cell& cell) {
     return cell.hypothesis && is_beam_card(*cell.hypothesis->get<deck::HypothesisCard>());
   };
@@ -455,14 +422,44 @@ void CellBook::check_beams(const Temperatures* temperatures) {
               "a beam of .MCE on nodes that turn");
   report_lack([](const Cell& cell) { return !is_beam(cell) && (cell.profile != 0 || cell.axis_2); },
               "is no beam, and has BPR or AXIS2", "these are for cells of two nodes, or three, with .HYP BEAM");
-  if (!temperatures) return;
-  const auto is_warm = [&](int node) { return temperatures->contains(std::abs(node)); };
-  const auto warm_beam = [&](const Cell& cell) {
-    const std::vector<int>& nodes = cell.record->get<CellData>()->nodes;
-    return is_beam(cell) && std::any_of(nodes.begin(), nodes.end(), is_warm);
+}
+
+void CellBook::check_weight(const std::vector<deck::Record>& records) {
+  const auto weighs = [this](Hypothesis hypothesis) {
+    return std::any_of(cells_.begin(), cells_.end(), [hypothesis](const Cell& cell) {
+      return cell.section && !cell.section->skin && cell.section->hypothesis == hypothesis && cell.section->law.density > 0;
+    });
   };
-  report_lack(warm_beam, "is a beam with warm nodes: thermal expansion of beams is not in this version",
-              "leave these nodes out of TEMP");
+  for (const deck::Record& record : records) {
+    const auto* card = record.get<deck::GravityCard>();
+    if (!card) continue;
+    const auto& g = card->acceleration;
+    const double rounding = 1e-9 * std::hypot(g[0], g[1], g[2]);  // of directions that expressions give
+    const auto acts = [&](std::size_t axis) { return std::abs(g[axis]) > rounding; };
+    if ((acts(0) || acts(2)) && weighs(Hypothesis::axisymmetric))
+      diagnostics_.error(record.where("ACC"), "the weight of axisymmetric cells acts along their axis, and ACC leads across it",
+                         "ACC 0 g 0: the axis is y");
+    if (acts(2) && (weighs(Hypothesis::plane_stress) || weighs(Hypothesis::plane_strain)))
+      diagnostics_.warning(record.where("ACC"),
+                           "plane cells do not move along z: this component of gravity has no effect on them",
+                           "they lie in the plane of x and y");
+  }
+}
+
+void CellBook::look_at_axes() {
+  const Cell* first = nullptr;
+  std::size_t count = 0;
+  for (const Cell& cell : cells_) {
+    const bool turned = cell.theta.value_or(0) != 0 || cell.frame != 0;
+    if (!turned || !cell.section || cell.material->get<deck::MaterialCard>()->young.size() != 1) continue;
+    if (!first) first = &cell;
+    ++count;
+  }
+  if (!first) return;
+  const char* keyword = first->axes->given("THETA") ? "THETA" : "FRAME";
+  diagnostics_.warning(first->axes->where(keyword),
+                       fmt::format("the material of cell {}{} is isotropic: {} has no effect", first->record->id,
+                                   count > 1 ? fmt::format(" (the first of {})", count) : "", keyword));
 }
 
 }  // namespace engrane::elements::structural

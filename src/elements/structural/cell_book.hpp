@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -24,19 +25,30 @@ struct SkinOptions {
   std::optional<double> slack;  ///< fraction of the stiffness that remains where they wrinkle; none: the default
 };
 
+/// Law of an anisotropic material whose axes follow a curved frame, such as a cylindrical one: it differs from point to point.
+struct CurvedLaw {
+  materials::Hypothesis hypothesis;
+  materials::Elastic material;            ///< in its own axes
+  std::function<Mat3(const Vec3&)> axes;  ///< as columns, at a place in the reference configuration
+  double height = 0;                      ///< z of plane cells
+
+  materials::Elasticity at(const Vec3& place) const {
+    return materials::law_of(hypothesis, materials::turned(material, axes(place)));
+  }
+};
+
 /// Properties shared by cells of one material, hypothesis and thickness.
 struct CellSection {
   materials::Hypothesis hypothesis;
-  materials::Elasticity law;
+  materials::Elasticity law;  ///< if there is a `curved`: for what does not depend on axes, such as the density
   double thickness = 1;
   bool linear = true;  ///< small displacements
   /// Number of the section within the deck. Cells with the same number have the same material, hypothesis and thickness and, if
-  /// the material is anisotropic, the same definition of its axes, and are in the same of the groups that give properties. In a
-  /// curved frame, such as a cylindrical one, the axes differ from cell to cell: each cell then has its own CellSection with this
-  /// number.
+  /// the material is anisotropic, the same definition of its axes, and are in the same of the groups that give properties.
   int number = 0;
   bool lumped = false;                   ///< lumped instead of consistent masses
   std::optional<SkinOptions> skin = {};  ///< membranes in space
+  std::optional<CurvedLaw> curved = {};
 };
 
 /// Properties of a cell that is a beam.
@@ -69,10 +81,13 @@ class CellBook {
 
   /// The record of `.MAI`; nullptr if the cell does not exist.
   const deck::Record* record(int cell) const;
-  /// Alternating cell numbers and face numbers, counted from 1, of a group of faces; nullptr if the group does not exist.
+  /// Alternating cell numbers and face numbers, counted from 1, of a group of faces, each face once; nullptr if the group does
+  /// not exist.
   const std::vector<int>* faces(const std::string& group) const;
   /// Cell numbers of a group; empty if the group does not exist.
   std::vector<int> cells(const std::string& group) const;
+  /// Whether there is a group of elements of that name; it may contain no cells.
+  bool has_group(const std::string& group) const { return groups_.contains(group); }
   /// Section of a plane, solid or membrane cell; nullptr if something is missing, which has been reported.
   std::shared_ptr<const CellSection> section(int cell) const;
   /// Properties of a beam cell; nothing if something is missing, which has been reported.
@@ -98,7 +113,9 @@ class CellBook {
   using Group = std::vector<std::size_t>;  ///< indices into `cells_`
 
   void read_cells(const std::vector<deck::Record>& records);
-  void read_groups(const std::vector<deck::Record>& records);
+  void read_groups(const std::vector<deck::Record>& records, const NodePositions& nodes);
+  /// Adds to a group the cells that a record of `.SEL` chooses.
+  void add_members(const deck::Record& record, const deck::GroupCard& card, const NodePositions& nodes, Group& group);
   void read_properties(const std::vector<deck::Record>& records);
   void read_rotations(const BuildContext& context);
   /// Numbers the parts of the mesh: two cells are of one part if they are in the same groups, of those that `.HYP`, `.PHP` and
@@ -107,15 +124,24 @@ class CellBook {
   void check_skin(const deck::Record& record, const deck::HypothesisCard& card);
   void assign(const deck::Record& record, const deck::AssignmentCard& assignment);
   void make_sections(const NodePositions& nodes);
-  void check_beams(const Temperatures* temperatures);
-  void refuse_warm(const Temperatures& temperatures);
-  std::shared_ptr<const CellSection> make_section(const Cell& cell, materials::Hypothesis hypothesis, const Mat3& axes,
+  void check_beams();
+  /// Looks for gravity that the cells cannot follow.
+  void check_weight(const std::vector<deck::Record>& records);
+  /// Warns about axes of materials that have none.
+  void look_at_axes();
+  /// Reports rubber that gets so cold that nothing is left of it.
+  void refuse_cold(const Temperatures& temperatures);
+  std::shared_ptr<const CellSection> make_section(const Cell& cell, materials::Hypothesis hypothesis, const Vec3& middle,
                                                   int number);
-  /// Material axes of a cell as columns. Reports an error and returns nothing if its frame does not exist.
-  std::optional<Mat3> axes_of(const Cell& cell, const NodePositions& nodes);
+  /// Whether the material has axes and these differ from place to place.
+  bool has_curved_axes(const Cell& cell) const;
+  /// Whether one axis of the material is z wherever the cell is; otherwise reports an error, once for each material.
+  bool is_plane(const Cell& cell, const Vec3& middle, const NodePositions& nodes);
 
-  /// Cells of groups given by name or number; reports unknown groups.
-  Group members(const deck::Record& record, const std::vector<std::string>& groups);
+  /// Cells of groups given by name or number; reports unknown groups and, unless the record names `others`, warns if it applies
+  /// to no cell.
+  Group members(const deck::Record& record, const std::vector<std::string>& groups, bool others = false);
+  void report_unknown_group(const deck::Record& record, const char* keyword, const std::string& name);
   const Cell* find(int cell) const;
   std::size_t index(int cell) const;
   /// Reports one error for all cells for which `lacks` is true.

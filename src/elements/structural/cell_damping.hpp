@@ -3,14 +3,15 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 
 #include "elements/structural/cell_kernel.hpp"
 #include "model/element.hpp"
 
 namespace engrane::elements::structural {
 
-/// Forces of the second Piola–Kirchhoff stresses V Ė of a cell, with the constant moduli V. The internal modes have
-/// rates of their own. These make the power smallest, so that the stresses do no work on them: with small displacements and
+/// Forces of the second Piola–Kirchhoff stresses V Ė of a cell, with moduli V that do not change with time. The internal modes
+/// have rates of their own. These make the power smallest, so that the stresses do no work on them: with small displacements and
 /// V = τ D the forces are τ times the stiffness, with its modes condensed, times the velocities.
 template <CellShape S, bool Axi>
 class CellDamping {
@@ -25,9 +26,9 @@ class CellDamping {
 
  public:
   /// `moves`: displacements and amplitudes. The kernel and the moves must outlive this.
-  CellDamping(const Kernel& kernel, const typename Kernel::Stiffness& moduli, bool linear, const Moves& moves,
+  CellDamping(const Kernel& kernel, typename Kernel::PointModuli moduli, bool linear, const Moves& moves,
               const Places& velocities)
-      : kernel_(kernel), moduli_(moduli), linear_(linear), moves_(moves) {
+      : kernel_(kernel), moduli_(std::move(moduli)), linear_(linear), moves_(moves) {
     std::copy_n(velocities.data(), nodal, rates_.data());
     if constexpr (own > 0) {
       std::fill_n(rates_.data() + nodal, own, 0);
@@ -48,7 +49,7 @@ class CellDamping {
   /// Power that is dissipated.
   double power() const {
     double sum = 0;
-    for (int i = 0; i < kernel_.count(); ++i) sum += kernel_.point(i).volume * rate(i).dot(moduli_ * rate(i));
+    for (int i = 0; i < kernel_.count(); ++i) sum += kernel_.point(i).volume * rate(i).dot(moduli_.at(i) * rate(i));
     return sum;
   }
 
@@ -97,7 +98,7 @@ class CellDamping {
     Moves forces = zero<Moves>();
     double b[strains][size];
     for (int i = 0; i < kernel_.count(); ++i) {
-      const Strain load = kernel_.point(i).volume * (moduli_ * rate(i));
+      const Strain load = kernel_.point(i).volume * (moduli_.at(i) * rate(i));
       Kernel::strain_by(kernel_.point(i), deformation(i), b);
       for (int n = 0; n < strains; ++n)
         for (int j = 0; j < size; ++j) forces.data()[j] += b[n][j] * load[n];
@@ -111,7 +112,7 @@ class CellDamping {
     double b[strains][size];
     for (int i = 0; i < kernel_.count(); ++i) {
       Kernel::strain_by(kernel_.point(i), deformation(i), b);
-      Kernel::add_material(b, kernel_.point(i).volume * moduli_, first, viscous);
+      Kernel::add_material(b, kernel_.point(i).volume * moduli_.at(i), first, viscous);
     }
   }
 
@@ -123,7 +124,7 @@ class CellDamping {
       const Point& p = kernel_.point(i);
       Kernel::strain_by(p, deformation(i), b);
       Kernel::strain_by(p, kernel_.rate(p, rates_), turned);
-      const typename Kernel::Stiffness moduli = p.volume * moduli_;
+      const typename Kernel::Stiffness moduli = p.volume * moduli_.at(i);
       Kernel::add_geometric(p, moduli * rate(i), 0, geometric);
       for (int j = 0; j < size; ++j) {
         Strain c = Strain::Zero();
@@ -144,7 +145,7 @@ class CellDamping {
   }
 
   const Kernel& kernel_;
-  typename Kernel::Stiffness moduli_;
+  typename Kernel::PointModuli moduli_;
   bool linear_;
   const Moves& moves_;
   Moves rates_;

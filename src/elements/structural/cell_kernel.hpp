@@ -10,6 +10,7 @@
 #include <limits>
 #include <numbers>
 #include <span>
+#include <vector>
 
 #include "elements/structural/cell_shapes.hpp"
 #include "elements/structural/cell_strain.hpp"
@@ -114,13 +115,26 @@ class CellKernel : public CellStrain<CellTraits<S>::dimension, Axi> {
     return d;
   }
 
-  /// The law with the thermal expansion at each point.
+  /// Moduli at the points.
+  struct PointModuli {
+    Stiffness alike;
+    std::vector<Stiffness> each;  ///< empty: `alike` at all points
+
+    const Stiffness& at(int point) const { return each.empty() ? alike : each[static_cast<std::size_t>(point)]; }
+  };
+
+  /// The law with the moduli and the thermal expansion at each point.
   struct Law : Local::Law {
+    PointModuli moduli;
     bool is_warm = false;
     std::array<Expansion, static_cast<std::size_t>(most_points)> free{};
 
     const Expansion* free_at(int point) const { return is_warm ? &free[static_cast<std::size_t>(point)] : nullptr; }
   };
+
+  static typename Local::Response respond(const Law& law, int point, const Deformation& now) {
+    return Local::respond(law, law.moduli.at(point), law.free_at(point), now);
+  }
 
   /// Internal forces of nodes and modes for given displacements and amplitudes and, unless `k` is nullptr, their tangent. Of
   /// the symmetric tangent only the upper triangle is computed, in the columns from `first` on.
@@ -131,7 +145,7 @@ class CellKernel : public CellStrain<CellTraits<S>::dimension, Axi> {
     for (int i = 0; i < count_; ++i) {
       const Point& p = points_[i];
       const Deformation now = deformation(p, moves);
-      const auto response = Local::respond(law, law.free_at(i), now);
+      const auto response = respond(law, i, now);
       const Strain stress = p.volume * response.stress;
       strain_by(p, law.linear ? Deformation{} : now, b);
       for (int n = 0; n < strains; ++n)

@@ -64,11 +64,10 @@ struct CellStrain {
     return e;
   }
 
-  /// Material law: stress = stiffness · (strain − free thermal strain).
+  /// Material law: stress = stiffness · (strain − free thermal strain). The stiffness may differ from point to point.
   struct Law {
-    Stiffness stiffness;
     bool linear = true;                                  ///< small displacements
-    const materials::NeoHookean* neo_hookean = nullptr;  ///< if not nullptr, replaces `stiffness`
+    const materials::NeoHookean* neo_hookean = nullptr;  ///< if not nullptr, replaces the stiffness
     materials::Hypothesis hypothesis = materials::Hypothesis::solid;
   };
 
@@ -86,7 +85,7 @@ struct CellStrain {
     double by_growth = 0;  ///< derivative of the energy by Expansion::growth
   };
   /// `free`: nullptr for no expansion. With large displacements the response is NaN where the cell is inverted.
-  static Response respond(const Law& law, const Expansion* free, const Deformation& now) {
+  static Response respond(const Law& law, const Stiffness& stiffness, const Expansion* free, const Deformation& now) {
     Strain e = strain(now, law.linear);
     // the Green–Lagrange strain cannot detect inversion
     if (!law.linear && !now.is_right_way_round()) e.setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -97,8 +96,8 @@ struct CellStrain {
       return {reduced(found.stress), reduced(found.moduli), found.energy, found.by_growth};
     }
     if (free) e -= free->strain;
-    const Strain stress = law.stiffness * e;
-    return {stress, law.stiffness, e.dot(stress) / 2};
+    const Strain stress = stiffness * e;
+    return {stress, stiffness, e.dot(stress) / 2};
   }
 };
 

@@ -90,7 +90,7 @@ class Cells final : public Block {
     if (section.law.damping > 0) energies.dissipated = damping_of(cell, state, kernel, sum.moves).power();
     for (int i = 0; i < kernel.count(); ++i) {
       const double volume = kernel.point(i).volume;
-      const auto response = Kernel::respond(law, law.free_at(i), kernel.deformation(kernel.point(i), sum.moves));
+      const auto response = Kernel::respond(law, i, kernel.deformation(kernel.point(i), sum.moves));
       energies.strain += volume * response.energy;
       if (!law.is_warm) continue;
       // the strain energy V also depends on ΔT: a change of temperature supplies ∂V/∂ΔT dΔT
@@ -100,9 +100,10 @@ class Cells final : public Block {
         energies.external += heating * response.by_growth * section.law.expansion[0];
         continue;
       }
-      const double held = section.law.held * section.law.expansion[2] * section.law.expansion[2], warmer = rise(cell, state, s);
+      const materials::Elasticity material = material_at(cell, s);
+      const double held = material.held * material.expansion[2] * material.expansion[2], warmer = rise(cell, state, s);
       energies.strain += volume / 2 * held * warmer * warmer;
-      energies.external += heating * (held * warmer - Kernel::reduced(section.law.growth).dot(response.stress));
+      energies.external += heating * (held * warmer - Kernel::reduced(material.growth).dot(response.stress));
     }
     energies.potential = energies.strain;
     const Places v = rates(state);
@@ -191,7 +192,7 @@ class Cells final : public Block {
       moves = displacements(cell, state);
     typename Kernel::Moves rates;
     if (section.law.damping > 0) rates = rates_of(cell, state, kernel ? &*kernel : nullptr, moves);
-    const Eigen::LLT<typename Kernel::Stiffness> moduli(Kernel::reduced(section.law.stiffness));
+    Eigen::LLT<typename Kernel::Stiffness> moduli(Kernel::reduced(section.law.stiffness));
     const auto energy = [&moduli](const Stress& stress) {
       return moduli.matrixL().solve(Kernel::reduced(stress)).squaredNorm() / 2;
     };
@@ -203,6 +204,7 @@ class Cells final : public Block {
       if constexpr (Kernel::modes == 0) other.emplace(cell.places, section.thickness, std::span(samples).subspan(i, 1));
       const typename Kernel::Point& point = other ? other->point(0) : kernel->point(static_cast<int>(i));
       const AtPoint p = at_point(cell, state, samples[i], other ? *other : *kernel, point, moves, rates);
+      if (section.curved) moduli.compute(Kernel::reduced(material_at(cell, samples[i]).stiffness));
       Stress wanted = Stress::Zero();
       for (Eigen::Index n = 0; n < N; ++n) wanted.template head<width>() += samples[i].value[n] * given(n);
       if (!section.linear) {
@@ -220,8 +222,8 @@ class Cells final : public Block {
     std::array<int, static_cast<std::size_t>(N)> nodes;
     Places places;
     std::shared_ptr<const CellSection> section;
-    std::shared_ptr<const std::vector<Warmth>> warmth;  ///< of each node; nullptr: no change of temperature
-    std::shared_ptr<const CellRotation> rotation;       ///< nullptr: it does not rotate
+    NodeWarmth warmth;
+    std::shared_ptr<const CellRotation> rotation;  ///< nullptr: it does not rotate
   };
 
   /// All six components of stress and strain at a point.
@@ -245,13 +247,31 @@ class Cells final : public Block {
   }
 
   static Law law_of(const Cell& cell, const State& state) {
-    const materials::Elasticity& material = cell.section->law;
-    Law law{{Kernel::reduced(material.stiffness), cell.section->linear, material.neo_hookean ? &*material.neo_hookean : nullptr,
-             cell.section->hypothesis},
+    const CellSection& section = *cell.section;
+    const materials::Elasticity& material = section.law;
+    Law law{{section.linear, material.neo_hookean ? &*material.neo_hookean : nullptr, section.hypothesis},
+            {Kernel::reduced(material.stiffness), {}},
             cell.warmth != nullptr};
-    for (std::size_t i = 0; law.is_warm && i < Kernel::samples().size(); ++i)
-      law.free[i] = expansion(material, rise(cell, state, Kernel::samples()[i]));
+    const auto& samples = Kernel::samples();
+    if (section.curved) {
+      for (std::size_t i = 0; i < samples.size(); ++i) {
+        const materials::Elasticity here = material_at(cell, samples[i]);
+        law.moduli.each.push_back(Kernel::reduced(here.stiffness));
+        if (law.is_warm) law.free[i] = expansion(here, rise(cell, state, samples[i]));
+      }
+    } else {
+      for (std::size_t i = 0; law.is_warm && i < samples.size(); ++i)
+        law.free[i] = expansion(material, rise(cell, state, samples[i]));
+    }
     return law;
+  }
+
+  static materials::Elasticity material_at(const Cell& cell, const Sample& s) {
+    const std::optional<CurvedLaw>& curved = cell.section->curved;
+    if (!curved) return cell.section->law;
+    Vec3 place(0, 0, curved->height);
+    place.template head<D>() = interpolated(cell.places, s.value);
+    return curved->at(place);
   }
 
   static typename Kernel::Expansion expansion(const materials::Elasticity& material, double rise) {
@@ -260,23 +280,17 @@ class Cells final : public Block {
 
   /// Damping of a cell whose material has some. `kernel` and `moves` must outlive it.
   static Damping damping_of(const Cell& cell, const State& state, const Kernel& kernel, const typename Kernel::Moves& moves) {
-    const materials::Elasticity& material = cell.section->law;
-    return {kernel, material.damping * Kernel::reduced(material.stiffness), cell.section->linear, moves, rates(state)};
+    const double time = cell.section->law.damping;
+    typename Kernel::PointModuli moduli = law_of(cell, state).moduli;
+    moduli.alike *= time;
+    for (typename Kernel::Stiffness& each : moduli.each) each *= time;
+    return {kernel, std::move(moduli), cell.section->linear, moves, rates(state)};
   }
 
   /// Temperature rise at a point over the reference configuration, and its rate.
-  static double rise(const Cell& cell, const State& state, const Sample& s) {
-    return between_nodes(cell, s, [&state](const Warmth& w) { return w.at(state.time); });
-  }
+  static double rise(const Cell& cell, const State& state, const Sample& s) { return rise_at(cell.warmth, s.value, state.time); }
   static double rise_rate(const Cell& cell, const State& state, const Sample& s) {
-    return between_nodes(cell, s, [&state](const Warmth& w) { return w.rate(state.time); });
-  }
-  template <class Of>
-  static double between_nodes(const Cell& cell, const Sample& s, const Of& of) {
-    if (!cell.warmth) return 0;
-    double sum = 0;
-    for (Eigen::Index i = 0; i < N; ++i) sum += s.value[i] * of((*cell.warmth)[static_cast<std::size_t>(i)]);
-    return sum;
+    return rise_rate_at(cell.warmth, s.value, state.time);
   }
 
   /// Displacements of the nodes and amplitudes of the modes.
@@ -299,7 +313,7 @@ class Cells final : public Block {
                           const typename Kernel::Point& point, const typename Kernel::Moves& moves,
                           const typename Kernel::Moves& rates) {
     const CellSection& section = *cell.section;
-    const materials::Elasticity& material = section.law;
+    const materials::Elasticity material = material_at(cell, s);
     const typename Kernel::Deformation now = at.deformation(point, moves);
     const double warmer = rise(cell, state, s);
     AtPoint p;
@@ -402,14 +416,9 @@ class Cells final : public Block {
     const double density = cell.section->law.density;
     const Eigen::Matrix<double, D, 1> gravity = acceleration.template head<D>();
     if (density == 0 || gravity.isZero(0)) return false;
-    // in axisymmetry the radius raises the degree by one
-    static const auto samples = tabulate<S>(Axi ? Traits::mass_points() : Traits::load_points());
     auto share = zero<Shape>();
-    if (cell.section->lumped)
-      share = lumped(cell);
-    else
-      for_each_point(cell, samples,
-                     [&](const Sample& s, double volume) { entries(share) += density * volume * entries(s.value); });
+    // the points of the mass: a body that falls freely has no stress, whatever the shape of its cells
+    for_each_mass(cell, [&](const Shape& shape, double mass) { entries(share) += mass * entries(shape); });
     for (Eigen::Index i = 0; i < N; ++i) column(weight, i) = share[i] * gravity;
     return true;
   }

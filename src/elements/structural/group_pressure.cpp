@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <utility>
 
 #include "elements/structural/pressures.hpp"
+#include "model/groups.hpp"
 
 namespace engrane::elements::structural {
 
@@ -17,6 +20,8 @@ std::unique_ptr<Element> build(const GroupPressureData& data, BuildContext& cont
   const std::shared_ptr<const CellBook> book = CellBook::of(context);
   std::unique_ptr<Element> first;
   int number = context.number;
+  std::set<std::pair<int, int>> pushed;  // a face of several groups carries the pressure once
+  bool only_empty = true;
   for (const std::string& name : data.groups) {
     const std::vector<int> cells = book->cells(name);
     const auto is_no_skin = [&](int cell) {
@@ -24,6 +29,7 @@ std::unique_ptr<Element> build(const GroupPressureData& data, BuildContext& cont
       return section && !section->skin;
     };
     if (const auto other = std::find_if(cells.begin(), cells.end(), is_no_skin); other != cells.end()) {
+      only_empty = false;
       context.error("GROUP", fmt::format("cell {} of group \"{}\" is no membrane", *other, name),
                     "a pressure on other cells is given by .SEL GROUP n FACES");
       continue;
@@ -31,12 +37,15 @@ std::unique_ptr<Element> build(const GroupPressureData& data, BuildContext& cont
     std::vector<int> of_skins;  // (cell, face) pairs; a membrane has face 1 only
     for (const int cell : cells) of_skins.insert(of_skins.end(), {cell, 1});
     const std::vector<int>* faces = cells.empty() ? book->faces(name) : &of_skins;
+    if (!faces && book->has_group(name)) continue;
+    only_empty = false;
     if (!faces) {
       context.diagnostics.missing(".SEL", context.record.where("GROUP"), fmt::format("there is no group of faces \"{}\"", name),
                                   "declare it with .SEL GROUP n FACES, and a row `I 57 3` (cell, face) for each");
       continue;
     }
     for (std::size_t i = 0; i + 1 < faces->size(); i += 2) {
+      if (!pushed.emplace((*faces)[i], (*faces)[i + 1]).second) continue;
       auto one =
           make_pressure({(*faces)[i], (*faces)[i + 1], data.pressure, function, data.dead}, number, "GROUP", *book, context);
       if (!one) continue;
@@ -47,6 +56,7 @@ std::unique_ptr<Element> build(const GroupPressureData& data, BuildContext& cont
         context.more->push_back(std::move(one));
     }
   }
+  if (only_empty) warn_of_no_effect(context.record, data.groups, "elements", context.diagnostics);
   return first;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "elements/common/warmth.hpp"
 #include "elements/structural/cell_book.hpp"
 
 namespace engrane::elements::structural {
@@ -16,8 +17,8 @@ struct CellPlan {
   std::vector<int> nodes;
   std::vector<Vec3> places;
   std::shared_ptr<const CellSection> section;
-  std::shared_ptr<const std::vector<Warmth>> warmth = nullptr;  ///< of each node; nullptr: no change of temperature
-  std::shared_ptr<const CellRotation> rotation = nullptr;       ///< nullptr: it does not rotate
+  NodeWarmth warmth = nullptr;
+  std::shared_ptr<const CellRotation> rotation = nullptr;  ///< nullptr: it does not rotate
 };
 
 /// Adds a cell to the block of its kind, or to a block of its own if `blocks` is nullptr.

@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "model/templated_element.hpp"
@@ -11,6 +14,9 @@
 namespace engrane::elements::structural {
 
 namespace {
+
+constexpr double least_part = 1e-12;  ///< rounding of sums and of squared lengths, relative
+constexpr double rounding_of_places = 16 * std::numeric_limits<double>::epsilon();  ///< of coordinates and differences, relative
 
 constexpr const char* cure =
     "name nodes that do not lie on a line, or join single nodes to N by SPHERICAL joints; RIGID_LINK takes any group";
@@ -55,7 +61,7 @@ class FirstShare final : public TemplatedElement<FirstShare, 2, 15> {
   NodeLink share_;
 };
 
-/// The weights normalised to a sum of 1. Reports an error and returns nothing if their number is wrong.
+/// The weights normalised to a sum of 1. Reports an error and returns nothing if their number is wrong, or there is no mean.
 std::optional<std::vector<double>> parts_of_one(const MeanLinkData& data, std::size_t count, const BuildContext& context) {
   std::vector<double> weights = data.weights;
   if (weights.empty()) weights.assign(count, 1.0);
@@ -65,6 +71,12 @@ std::optional<std::vector<double>> parts_of_one(const MeanLinkData& data, std::s
     return {};
   }
   const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  const double size = std::accumulate(weights.begin(), weights.end(), 0.0, [](double s, double w) { return s + std::abs(w); });
+  if (!(std::abs(sum) > least_part * size)) {
+    context.error("W", "the weights add up to zero: there is no mean",
+                  "weights may be zero and negative, as those of the nodes of a face of second order; their sum may not be zero");
+    return {};
+  }
   for (double& w : weights) w /= sum;
   return weights;
 }
@@ -75,31 +87,42 @@ std::unique_ptr<Element> build(const MeanLinkData& data, BuildContext& context) 
   const std::size_t count = group->nodes.size();
   const auto weights = parts_of_one(data, count, context);
   if (!weights) return nullptr;
-  Vec3 centre = Vec3::Zero();
-  for (std::size_t i = 0; i < count; ++i) centre += (*weights)[i] * group->places[i];
-  // weighted second moments of the positions about their centre
-  Mat3 spread = Mat3::Zero();
+  // from the first node on: the place of the group in the model costs no digits of its size
+  Vec3 centre = group->places.front();
+  for (std::size_t i = 0; i < count; ++i) centre += (*weights)[i] * (group->places[i] - group->places.front());
+  // weighted second moments of the positions about their centre; negative weights may take from them, but not from the extents
+  Mat3 spread = Mat3::Zero(), unsigned_spread = Mat3::Zero();
   for (std::size_t i = 0; i < count; ++i) {
     const Vec3 e = group->places[i] - centre;
     spread += (*weights)[i] * e * e.transpose();
+    unsigned_spread += std::abs((*weights)[i]) * e * e.transpose();
   }
-  constexpr double rounding = 1e-12;  // relative, for squared lengths
-  const Vec3 extents = Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvalues();
-  double far = 0;
-  for (const Vec3& place : group->places) far = std::max(far, (context.nodes.at(data.master) + place).squaredNorm());
-  if (!(extents[2] > rounding * far)) {
+  const Vec3 extents = Eigen::SelfAdjointEigenSolver<Mat3>(unsigned_spread).eigenvalues();
+  // second moments that the rounding of coordinates makes
+  double rounded = 0;
+  for (const Vec3& place : group->places)
+    rounded = std::max({rounded, place.squaredNorm(), (context.nodes.at(data.master) + place).squaredNorm()});
+  rounded *= rounding_of_places * rounding_of_places;
+  if (!(extents[2] > rounded)) {
     context.error("N",
                   fmt::format("the {} of the group lie in one place, which has no rotation for node {} to follow",
                               count == 1 ? "node" : "nodes", data.master),
                   cure);
     return nullptr;
   }
-  if (!group->in_plane && !(extents[1] > rounding * extents[2])) {
+  if (!group->in_plane && !(extents[1] > std::max(least_part * extents[2], rounded))) {
     context.error("N", fmt::format("the nodes of the group lie on a line, about which node {} could turn freely", data.master),
                   cure);
     return nullptr;
   }
   const Mat3 inertia = spread.trace() * Mat3::Identity() - spread;
+  const Vec3 resistances =
+      group->in_plane ? Vec3(Vec3::Constant(inertia(2, 2))) : Vec3(Eigen::SelfAdjointEigenSolver<Mat3>(inertia).eigenvalues());
+  if (!(resistances.cwiseAbs().minCoeff() > least_part * extents[2])) {
+    context.error("W", fmt::format("with these weights the group has no mean rotation for node {} to follow", data.master),
+                  "the second moments of the weights cancel out; take those of a face, or none");
+    return nullptr;
+  }
   const Mat3 flexibility = group->in_plane ? Mat3(Vec3(0, 0, 1 / inertia(2, 2)).asDiagonal()) : Mat3(inertia.inverse());
 
   std::vector<Multiplier> multipliers;
@@ -150,9 +173,10 @@ ElementType mean_link_type() {
       .example("I 8 MEAN_LINK N 101 GROUP \"rim\"")
       .example("I 8 MEAN_LINK N 101 MEMBERS 1 2 3  W 1. 4. 1.");
   add_link_nodes(card);
-  card.add("W", &MeanLinkData::weights, "weights of the nodes in the order of their numbers; none: all the same")
-      .values(1, deck::any_number)
-      .positive();
+  card.add("W", &MeanLinkData::weights,
+           "weights of the nodes in the order of their numbers; none: all the same. They may be zero or negative, as the "
+           "consistent ones of a face are; their sum may not be zero")
+      .values(1, deck::any_number);
   return element_type(card, build);
 }
 

@@ -58,7 +58,7 @@ struct NodeLink {
     }
     const Vec3T<T> force = small ? f : rotate(master.R, f);
     balance.force(0, force);
-    balance.moment(0, small ? rotate_back(master.R, Vec3T<T>(cross(at_rest, f))) : Vec3T<T>(cross(arm, f)));
+    balance.moment(0, small ? moment_on_node(master.R, Vec3T<T>(cross(at_rest, f))) : Vec3T<T>(cross(arm, f)));
     balance.force(1, Vec3T<T>(-force));
   }
 };

@@ -148,10 +148,10 @@ void LinearSolver::save(Snapshot& snapshot) const {
 
 void LinearSolver::load(const Snapshot& snapshot) {
   // rows are numbered by rank: with another number of ranks the entries are in other places
-  resumable_ = (snapshot.has("solver/ranks") ? snapshot.number("solver/ranks") : 1) == ranks_of(matrix_);
+  resumable_ = snapshot.number("solver/ranks") == ranks_of(matrix_);
   if (!resumable_) return;
   if (factors_) factors_->package().load(snapshot);
-  if (snapshot.has("solver/proven")) proven_before_ = snapshot.number("solver/proven") != 0;
+  proven_before_ = snapshot.number("solver/proven") != 0;
 }
 
 void LinearSolver::save_factors(Snapshot& snapshot) const {

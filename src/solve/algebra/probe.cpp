@@ -65,6 +65,12 @@ void fill_loads(const Assembler& assembler, Vec loads) {
   check_petsc(VecRestoreArray(loads, &x));
 }
 
+bool answer_probe(const Assembler& assembler, LinearSolver& solver, Owned<Vec>& load, Owned<Vec>& motion) {
+  for (Owned<Vec>* vector : {&load, &motion}) *vector->out() = assembler.new_vector();
+  fill_loads(assembler, load);
+  return solver.solve(load, motion);
+}
+
 double relative_stiffness(Assembler& assembler, Mat matrix, Vec motion, Vec load) {
   Owned<Vec> weighted;
   check_petsc(VecDuplicate(motion, weighted.out()));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "assembly/assembler.hpp"
+#include "solve/algebra/linear.hpp"
 
 namespace engrane::solve {
 
@@ -12,6 +13,8 @@ void fill_probe(Vec vector);
 /// Fills a vector with such numbers as loads of the assembler's equations: moments are these numbers times the extent, as they
 /// are in other units of length, too.
 void fill_loads(const Assembler& assembler, Vec loads);
+/// Fills new vectors with these loads and with what the solver's present factors answer; false if that fails. Collective.
+bool answer_probe(const Assembler& assembler, LinearSolver& solver, Owned<Vec>& load, Owned<Vec>& motion);
 
 /// Stiffness of a motion x beside what its unknowns meet one by one: |xᵀKx| / Σ d x², with `load` = K x. d is the magnitude of
 /// the diagonal and, for the constraints k Φ = 0 with gradients g, Σ k g²: that of a hinge's turn is zero, or rounding. `matrix`

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "math/rotation.hpp"
 #include "solve/constraints/column_basis.hpp"
 #include "solve/constraints/constraint_factors.hpp"
 #include "solve/constraints/mobility.hpp"
@@ -358,6 +359,21 @@ std::string explain_unresolved(const Assembler& assembler, const References& ref
       "better. Take a rigid joint (WELD, DISTANCE) for it, or a stiffness at most {:.0g} of this one",
       stiff.name(), worst_noise, assembler.model().units.label(turns ? dimension::moment : dimension::force), worst.part,
       numbering.describe(worst_equation), 1e-6 / worst.part);
+}
+
+std::string explain_small_turns(const Model& model, const Configuration& tried) {
+  constexpr double far = 1;  // rad, far beyond what is small
+  if (!has_cells(model) || !model.commands.analysis.displacements.is("SMALL")) return {};
+  for (std::size_t i = 1; i < tried.nodes.size(); ++i) {
+    if (!(rotation_log(tried.nodes[i].R).norm() > far)) continue;
+    return fmt::format(
+        "; node {} turned by more than a radian, which is not small: cells of small displacements do not go with the finite "
+        "motion "
+        "of joints and springs there. Divide all loads by the same number and multiply the results by it, or take DISPLACEMENTS "
+        "LARGE",
+        model.nodes[i].id);
+  }
+  return {};
 }
 
 std::string explain_residual(Assembler& assembler, const Configuration& configuration, const NewtonReport& report) {

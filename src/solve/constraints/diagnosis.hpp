@@ -35,6 +35,9 @@ std::string plane_advice(const Model& model);
 /// Names a motion that no drive determines, of a mechanism with this mobility; empty if there is none.
 std::string explain_free_motion(Assembler& assembler, const Configuration& configuration, const Mobility& mobility);
 
+/// Advice where nodes of small displacements turn far in a model that is not linear, as to follow explain_residual(); else empty.
+std::string explain_small_turns(const Model& model, const Configuration& tried);
+
 /// Says where a Newton iteration got stuck: "largest residual at node 57 (rz) from HINGE 3".
 std::string explain_residual(Assembler& assembler, const Configuration& configuration, const NewtonReport& report);
 

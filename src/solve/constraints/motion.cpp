@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "math/linear_rotation.hpp"
 #include "math/rotation.hpp"
 
 namespace engrane::solve {
@@ -26,11 +27,16 @@ Mat3 compensated_turn(const Mat3& R, const Vec3& y, Eigen::Ref<Vec3> remainder) 
   return turned;
 }
 
-/// Moves a node that is at its starting point; `y` and `remainder`: its six entries.
-void move_node(const double* y, double* remainder, NodeState& node) {
+/// Moves a node that is at its starting point; `y` and `remainder`: its six entries. `adds`: rotation vectors add up.
+void move_node(const double* y, double* remainder, bool adds, NodeState& node) {
   for (int k = 0; k < 3; ++k) node.x[k] = compensated_sum(node.x[k], y[k], remainder[k]);
   const Vec3 rotation(y[3], y[4], y[5]);
   if (rotation.isZero(0)) {
+    node.T.setIdentity();
+  } else if (adds) {
+    Vec3 theta = rotation_log(node.R);
+    for (int k = 0; k < 3; ++k) theta[k] = compensated_sum(theta[k], rotation[k], remainder[3 + k]);
+    node.R = linear_rotation(theta);
     node.T.setIdentity();
   } else {
     node.R = compensated_turn(node.R, rotation, Eigen::Map<Vec3>(remainder + 3));
@@ -51,9 +57,18 @@ void MotionSlots::move(const Configuration& from, std::span<const double> y, Con
   to.remainders = from.remainders;
   for (std::size_t i = 1; i < from.nodes.size(); ++i) {
     to.nodes[i] = from.nodes[i];
-    move_node(&y[6 * i], &to.remainders[6 * i], to.nodes[i]);
+    move_node(&y[6 * i], &to.remainders[6 * i], adds_rotations_, to.nodes[i]);
   }
   move_scalars(from.scalars, y, to);
+}
+
+void MotionSlots::take_over(Configuration& c) const {
+  for (NodeState& node : c.nodes) {
+    const bool adds = is_linear_rotation(node.R);
+    if (adds == adds_rotations_) continue;
+    const Vec3 theta = rotation_log(node.R);
+    if (!theta.isZero(0)) node.R = adds_rotations_ ? linear_rotation(theta) : rotation_exp(theta);
+  }
 }
 
 MotionSlots::Origin::Origin(const Configuration& c) : scalars(c.scalars) {
@@ -79,7 +94,7 @@ void MotionSlots::move(const Origin& from, std::span<const double> y, Configurat
       node.R = turned->second;
     else
       node.R.setIdentity();
-    move_node(&y[6 * i], &to.remainders[6 * i], node);
+    move_node(&y[6 * i], &to.remainders[6 * i], adds_rotations_, node);
   }
   move_scalars(from.scalars, y, to);
 }

@@ -12,13 +12,18 @@ namespace engrane::solve {
 /// Flat access to a configuration by motion slot (six per node, then scalars), and the displacements the deck prescribes.
 class MotionSlots {
  public:
-  MotionSlots(const Model& model, const Numbering& numbering) : model_(model), numbering_(numbering) {}
+  /// `adds_rotations`: rotation vectors add up (linear_rotation()), as in linear statics.
+  MotionSlots(const Model& model, const Numbering& numbering, bool adds_rotations = false)
+      : model_(model), numbering_(numbering), adds_rotations_(adds_rotations) {}
+  bool adds_rotations() const { return adds_rotations_; }
+  /// Gives the nodes of a configuration from another analysis the kind of rotations that this one has.
+  void take_over(Configuration& c) const;
 
   std::size_t size() const { return static_cast<std::size_t>(numbering_.motion_slots()); }
 
-  /// `to` = `from` moved by y: positions and scalars are added, rotations multiplied by exp of the rotation vector; sets
-  /// NodeState::T. Rates of nodes are copied; those of scalars, the history and the rest of `to` are left alone. Sums are
-  /// compensated (Configuration::remainders).
+  /// `to` = `from` moved by y: positions and scalars are added, rotations multiplied by exp of the rotation vector, or their
+  /// vectors added; sets NodeState::T. Rates of nodes are copied; those of scalars, the history and the rest of `to` are left
+  /// alone. Sums are compensated (Configuration::remainders).
   void move(const Configuration& from, std::span<const double> y, Configuration& to) const;
 
   /// Starting point of move(); a fifth of a configuration's size if few nodes have turned.
@@ -62,6 +67,7 @@ class MotionSlots {
  private:
   const Model& model_;
   const Numbering& numbering_;
+  bool adds_rotations_;
 };
 
 }  // namespace engrane::solve

@@ -17,7 +17,8 @@ class Regularity {
   bool singular() const { return !(amplification_ < 1e7); }
   /// Whether two positions are on the same side of the singular ones, where det B changes its sign. With redundant constraints
   /// it also does so where the independent ones would have to be chosen anew; det(B B'ᵀ), the sum of the products of both
-  /// determinants over all choices (Cauchy and Binet), does not. True if one of them is singular.
+  /// determinants over all choices (Cauchy and Binet), does not. Without them loops that do not depend on each other are looked
+  /// at one by one: two that have changed at once leave the sign of the whole. True if one of them is singular.
   bool same_side(const Regularity& other) const;
 
  private:

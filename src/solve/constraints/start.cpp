@@ -85,7 +85,9 @@ void Start::verify_imposed(const Configuration& c, std::span<const double> wishe
       // the held value is the component of the rotation from where the deck put the node
       const std::size_t first = slot - static_cast<std::size_t>(u.item - 3);
       const Mat3 put = rotation_exp(Vec3(wished[first], wished[first + 1], wished[first + 2]));
-      off = rotation_log(put.transpose() * node.R)[u.item - 3] / degree;
+      off = (motion_.adds_rotations() ? rotation_log(node.R)[u.item - 3] - wished[slot]
+                                      : rotation_log(put.transpose() * node.R)[u.item - 3]) /
+            degree;
       size = 1 / degree;
     }
     if (std::abs(off) <= 1e-6 * size) continue;

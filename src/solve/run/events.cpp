@@ -268,9 +268,8 @@ void EventLocator::load(const Snapshot& snapshot) {
   before_.resize(before.size() / 3);
   for (std::size_t i = 0; i < before_.size(); ++i) before_[i] = {before[3 * i], before[3 * i + 1], before[3 * i + 2]};
   last_step_ = snapshot.number("events/last_step");
-  made_ = snapshot.has("events/made") ? static_cast<int>(snapshot.number("events/made")) : 0;
-  // files of earlier versions lack it
-  if (snapshot.has("events/tolerance")) tolerance_ = snapshot.number("events/tolerance");
+  made_ = static_cast<int>(snapshot.number("events/made"));
+  tolerance_ = snapshot.number("events/tolerance");
   // a run that locates no events, as in statics, notes no switches either
   if (before_.size() != switches_.sides().size()) forget();
 }

@@ -123,10 +123,8 @@ void save_speeds(const std::vector<ValueAndRate>& speeds, Snapshot& snapshot) {
 
 std::vector<ValueAndRate> load_speeds(const Model& model, const Snapshot& snapshot, double time) {
   std::vector<ValueAndRate> speeds = imposed_speeds(model, number_before(time));
-  // missing in files of earlier versions; a support may have another function, or none: then those of the present functions
-  if (!snapshot.has("runner/speeds")) return speeds;
   const std::vector<double>& flat = snapshot.array("runner/speeds");
-  if (flat.size() != 2 * speeds.size()) return speeds;
+  if (flat.size() != 2 * speeds.size()) return speeds;  // other supports: the speeds are those of the present functions
   for (std::size_t i = 0; i < speeds.size(); ++i) speeds[i] = {flat[2 * i], flat[2 * i + 1]};
   return speeds;
 }

@@ -29,6 +29,8 @@ constexpr int deeper = 20;
 constexpr double aside = 0.38;
 /// Fraction of the run below which two corners of functions of time count as one.
 constexpr double shortest_way = 1e-9;
+/// Even steps shorter than this fraction of H are the rounding error of their sum.
+constexpr double shortest_step = 1e-9;
 /// A drift across an event is certainly still before it this many of the locator's tolerances before its end.
 constexpr double crossing = 1.5;
 /// Largest error of a drift, over the tolerance of a controlled step: as for one across an event (EventLocator::reach). Whole
@@ -57,7 +59,7 @@ std::string failure_text(SolverContext& context, const Configuration& last, cons
     return explain_singular(context.assembler, text + report.reason + cut,
                             context.options.moves() ? Resistance::in_motion : Resistance::at_rest);  // ends with advice
   if (const std::string where = explain_residual(context.assembler, tried, report); !where.empty())
-    text += report.reason + "; " + where;
+    text += report.reason + "; " + where + explain_small_turns(context.model, tried);
   else
     text += report.reason;
   return text + cut + (loads ? beyond_limit : "");
@@ -94,6 +96,7 @@ bool Runner::run(const StepCallback& after_step, const std::function<void(const 
 bool Runner::resume(const Snapshot& snapshot, const StepCallback& after_step) {
   after_step_ = &after_step;
   load_configuration(snapshot, now_);
+  context_.motion.take_over(now_);
   next_ = now_;
   context_.load(snapshot);
   // where a function jumps at this very instant the run itself is open there; equilibria need not be neighbours
@@ -115,7 +118,7 @@ bool Runner::resume(const Snapshot& snapshot, const StepCallback& after_step) {
   if (speed_jump(context_.model, now_.time, earlier_speeds_)) {
     // drives and supports go on with other speeds than they have had: the impulse is yet to come
     const double corner = now_.time;
-    if (control_.active() && scheme_.meets_events()) {
+    if ((control_.active() && scheme_.meets_events()) || options_.ends_even_steps_at_corners()) {
       now_.time = number_before(corner);
       if (!pass_corner(now_.time, corner, true)) return false;
     }
@@ -176,31 +179,57 @@ bool Runner::follow() {
 
 bool Runner::march() {
   if (scheme_.course()) return follow();
-  const double begin = options_.begin, end = options_.end, step = options_.step;
-  if (control_.active()) {
-    for (const double corner : step_ends(context_.model, now_.time, end)) {
-      // a step that ends at a jump must not see what follows
-      const bool impulse = scheme_.meets_events() && speed_jump(context_.model, corner);
-      const bool jumps = scheme_.meets_events() &&
-                         (impulse || context_.model.jumps_at(corner) || imposed_acceleration_jumps(context_.model, corner));
-      const double before = jumps ? number_before(corner) : corner, least = shortest_way * (end - begin);
-      const bool there = jumps && now_.time == before;  // where a resumed run begins
-      if (!there && (corner - now_.time < least || end - corner < least)) continue;
-      corner_ = before;
-      if (!reach(before)) return false;
-      if (!pass_corner(before, corner, impulse)) return false;
-    }
-    corner_.reset();
-    return now_.time >= end || reach(end);
+  return control_.active() ? march_by_error() : march_evenly();
+}
+
+bool Runner::march_by_error() {
+  const double end = options_.end, least = shortest_way * (end - options_.begin);
+  for (const double corner : step_ends(context_.model, now_.time, end)) {
+    const bool there = now_.time == number_before(corner) && way_to(corner).jumps;  // where a resumed run begins
+    if (!there && (corner - now_.time < least || end - corner < least)) continue;
+    if (!meet_corner(corner)) return false;
   }
-  // a last step shorter than a billionth of the others is the rounding error of their sum
-  const auto steps = static_cast<long long>(std::ceil((end - begin) / step * (1 - 1e-9)));
+  corner_.reset();
+  return now_.time >= end || reach(end);
+}
+
+bool Runner::march_evenly() {
+  const double begin = options_.begin, end = options_.end, step = options_.step, least = shortest_step * step;
+  const auto steps = static_cast<long long>(std::ceil((end - begin) / step * (1 - shortest_step)));
   const auto done = static_cast<long long>(std::floor((now_.time - begin) / step * (1 + 1e-15)));
+  std::vector<double> corners;
+  if (options_.ends_even_steps_at_corners()) corners = context_.model.corners(now_.time, end);
+  auto corner = corners.begin();
   for (long long k = std::max(1LL, done); k <= steps; ++k) {
     const double target = k == steps ? end : begin + static_cast<double>(k) * step;
-    if (now_.time < target && !reach(target)) return false;
+    for (; corner != corners.end() && *corner < target + least && end - *corner >= least; ++corner) {
+      beside_even_ = std::abs(*corner - target) >= least;
+      if (!meet_corner(*corner)) return false;
+      beside_even_ = false;
+    }
+    const bool near = k < steps && step_.corner && target - now_.time < least;
+    if (now_.time < target && !near && !reach(target)) return false;
   }
   return true;
+}
+
+Runner::WayToCorner Runner::way_to(double corner) const {
+  // a step that ends at a jump must not see what follows
+  if (!scheme_.meets_events()) return {corner, false, false};
+  const Model& model = context_.model;
+  const bool impulse = speed_jump(model, corner).has_value();
+  const bool jumps = impulse || model.jumps_at(corner) || imposed_acceleration_jumps(model, corner);
+  return {jumps ? number_before(corner) : corner, jumps, impulse};
+}
+
+bool Runner::meet_corner(double corner) {
+  const WayToCorner way = way_to(corner);
+  corner_ = way.before;
+  const bool beside = beside_even_;
+  if (!control_.active()) beside_even_ = beside || way.jumps;  // results are those behind a jump
+  const bool there = reach(way.before);
+  beside_even_ = beside;
+  return there && pass_corner(way.before, corner, way.impulse);
 }
 
 bool Runner::pass_corner(double before, double corner, bool impulse) {
@@ -429,7 +458,7 @@ bool Runner::accepted(double size, bool regular, bool solved) {
   }
   ++step_.number;
   step_.step = size;
-  step_.regular = regular;
+  step_.regular = regular && !beside_even_;
   step_.corner = now_.time == corner_ || jumped_at_ == now_.time;
   step_.course = scheme_.course();
   step_.last = over();

@@ -68,6 +68,17 @@ class Runner {
     double error() const { return outcome.error.value_or(0); }
   };
   bool march();
+  /// march() with steps that follow their error, and with steps of length H.
+  bool march_by_error();
+  bool march_evenly();
+  /// How a corner of a function of time is met.
+  struct WayToCorner {
+    double before = 0;  ///< end of the last step before it
+    bool jumps = false, impulse = false;
+  };
+  WayToCorner way_to(double corner) const;
+  /// Ends a step at a corner of a function of time and passes it.
+  bool meet_corner(double corner);
   bool reach(double target);
   /// Makes one attempt towards `target`, and the step or the drift that it allows; false if `after_step` ended the run.
   bool advance(double target);
@@ -128,6 +139,7 @@ class Runner {
   std::vector<ValueAndRate> earlier_speeds_;  ///< speeds_so_far() when resumed; empty later
   bool renewed_ = false;                      ///< constraints have been analysed again on the way to the present target
   std::optional<double> corner_;              ///< corner of a function of time that is being approached
+  bool beside_even_ = false;                  ///< now_ is, or leads to, a corner between the ends of even steps
   std::optional<double> jumped_at_;           ///< end of the last jump of equilibria
   double pending_drift_ = 0;                  ///< time to drift across the event just before which the last step ended
   StepReport step_;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -29,6 +30,9 @@ constexpr double stands_still = 1e-8;
 /// Nodes that have travelled less than this fraction of the farthest count as if it were that: what rounding moves must not
 /// count.
 constexpr double least_travel = 1e-4;
+/// Nodes leap that move farther in a step than so many times what they have travelled and its beginning leads, and than this part
+/// of the distance to the next node, or of a radian: what rounding moves does not.
+constexpr double most_leap = 1.5, far_enough = 0.05;
 constexpr double longest_step = 0.1;
 /// Distance to the end of a step over that expected, at most: behind a corner of 87 degrees the plane is met so far away.
 constexpr double most_overrun = 20;
@@ -63,20 +67,41 @@ double product(std::span<const double> weights, std::span<const double> a, std::
   return sum;
 }
 
+/// By node: distance to the nearest of those that stand beside it in the record of an element; infinite for single nodes.
+std::vector<double> distances_to_neighbours(const Model& model) {
+  std::vector<double> least(model.nodes.size(), std::numeric_limits<double>::infinity());
+  for (const Model::Part& part : model.parts)
+    for (std::size_t k = 1; k < part.nodes.size(); ++k) {
+      const int a = part.nodes[k - 1], b = part.nodes[k];
+      const double distance = (model.node(a).x - model.node(b).x).norm();
+      if (a == 0 || b == 0 || distance == 0) continue;  // the ground is everywhere
+      for (const int node : {a, b}) {
+        double& nearest = least[static_cast<std::size_t>(node)];
+        nearest = std::min(nearest, distance);
+      }
+    }
+  return least;
+}
+
 }  // namespace
 
 ArcLength::ArcLength(SolverContext& context)
     : Statics(context), tangent_(context), load_derivative_(context, load_step * context.options.step) {
   for (Owned<Vec>* vector : {&load_, &toward_, &right_, &plane_}) *vector->out() = context.assembler.new_vector();
   const double extent = context.model.extent();
+  const std::vector<double> reach = distances_to_neighbours(context.model);
   int node = -1;
   for (const Unknown& u : context.numbering.unknowns()) {
     weights_.push_back(u.multiplier ? 0 : u.measure == Measure::force ? 1 / (extent * extent) : 1);
-    if (u.node < 0 || u.node != node) travelled_.push_back(0);
+    if (u.node < 0 || u.node != node) {
+      travelled_.push_back(0);
+      reach_.push_back(u.node < 0 ? 0 : reach[static_cast<std::size_t>(u.node)]);
+    }
     groups_.push_back(travelled_.size() - 1);
     node = u.node;
   }
   relative_ = weights_;
+  counted_.assign(travelled_.size(), 0.0);
 }
 
 StartReport ArcLength::start(Configuration& c) {
@@ -105,9 +130,33 @@ void ArcLength::travel(const Point& at, double h) {
 void ArcLength::weigh() {
   const double least = least_travel * *std::max_element(travelled_.begin(), travelled_.end());
   for (std::size_t i = 0; i < relative_.size(); ++i) {
-    const double travelled = std::max(travelled_[groups_[i]], least);
+    const double own = travelled_[groups_[i]], travelled = counted_[groups_[i]] != 0 ? own : std::max(own, least);
     relative_[i] = weights_[i] / (travelled * travelled);
   }
+}
+
+bool ArcLength::find_leaps(std::span<const double> chord, double h) {
+  const double least = least_travel * *std::max_element(travelled_.begin(), travelled_.end());
+  std::vector<double> squares(travelled_.size()), lead(travelled_.size()), visibly(travelled_.size());
+  for (std::size_t i = 0; i < weights_.size(); ++i) {
+    const std::size_t g = groups_[i];
+    squares[g] += weights_[i] * chord[i] * chord[i];
+    lead[g] += weights_[i] * here_.way[i] * here_.way[i];
+    const bool turns = context_.numbering.unknown(static_cast<int>(i)).rotational();
+    if (weights_[i] > 0 && std::abs(chord[i]) > far_enough * (turns ? 1 : reach_[g])) visibly[g] = 1;
+  }
+  const double before = pace(here_);
+  bool found = false;
+  for (std::size_t g = 0; g < travelled_.size(); ++g) {
+    if (visibly[g] == 0 || counted_[g] != 0 || !(travelled_[g] > 0) || travelled_[g] >= least) continue;
+    if (std::sqrt(squares[g]) <= most_leap * (travelled_[g] + std::abs(h) * std::sqrt(lead[g]))) continue;
+    counted_[g] = 1;
+    found = true;
+  }
+  if (!found) return false;
+  weigh();
+  measure_ *= pace(here_) / before;
+  return true;
 }
 
 double ArcLength::relative(std::span<const double> way) const { return std::sqrt(product(relative_, way, way)) / measure_; }
@@ -204,6 +253,10 @@ NewtonReport ArcLength::follow(const Configuration& from, double h, Configuratio
     report.converged = relative(chord.way) <= most_overrun * way && (turn <= most_turn || way <= corner * context_.options.step);
     if (!report.converged)
       report.reason = fmt::format("the step ends {:.0f} degrees off the path", turn * 180 / std::numbers::pi);
+    if (report.converged && find_leaps(chord.way, h)) {
+      report.converged = false;
+      report.reason = "parts of the structure snap within the step";
+    }
   }
   if (!report.converged) context_.newton.refuse_last();
   return report;
@@ -485,6 +538,7 @@ void ArcLength::save(Snapshot& snapshot) const {
                               static_cast<double>(bifurcations_), static_cast<double>(steps_), branching_ ? 1.0 : 0.0,
                               course_.next, static_cast<double>(course_.unstable), course_.critical_time});
   snapshot.put("path/travelled", travelled_);
+  snapshot.put("path/counted", counted_);
   snapshot.put("path/measure", measure_);
   snapshot.put("path/arrived", course_.arrived ? goal() : std::vector<double>{});
 }
@@ -501,6 +555,7 @@ void ArcLength::load(const Snapshot& snapshot) {
   const std::vector<double>& state = snapshot.array("path/state");
   if (here_.way.size() != weights_.size()) throw std::out_of_range("the path has other equations");
   travelled_ = snapshot.array("path/travelled");
+  if (snapshot.has("path/counted")) counted_ = snapshot.array("path/counted");  // files of earlier versions lack it
   weigh();
   measure_ = snapshot.number("path/measure");
   here_.load = state.at(0);

@@ -69,6 +69,10 @@ class ArcLength final : public Statics, private Border {
   void travel(const Point& at, double h);
   /// Sets relative_ by what nodes have travelled.
   void weigh();
+  /// Looks for nodes that move much farther in a step of h, `chord`, than they have travelled and its beginning leads, as where
+  /// something snaps behind a spring so soft that it counts for nothing. From now on they count against what they have travelled,
+  /// however little. Returns whether there are any: the step is then to be tried again.
+  bool find_leaps(std::span<const double> chord, double h);
   /// Relative length, with the weights relative_ and in the unit measure_.
   double relative(std::span<const double> way) const;
   /// Relative length of the direction at a point, 1 where only the load time goes on: that of a step of 1.
@@ -106,6 +110,8 @@ class ArcLength final : public Statics, private Border {
   std::vector<double> weights_;       ///< of the length, by equation
   std::vector<std::size_t> groups_;   ///< by equation: what travels together, the unknowns of a node
   std::vector<double> travelled_;     ///< by group
+  std::vector<double> reach_;         ///< by group: distance to the nearest node that an element joins it to
+  std::vector<double> counted_;       ///< by group: 1 for those of find_leaps()
   std::vector<double> relative_;      ///< weights_ over the square of what the group has travelled: of planes and angles
   double measure_ = 1;                ///< relative length that counts as much as the load time
   double unit_ = 1;                   ///< of the length

@@ -87,7 +87,7 @@ void KeptMatrices::load(const Snapshot& snapshot) {
     return numbers;
   };
   phase_ = whole(snapshot);
-  current_ = snapshot.has("current") ? whole(snapshot, "current") : phase_;  // files of earlier versions lack it
+  current_ = whole(snapshot, "current");
   sets_.clear();
   for (int number = 0; number < static_cast<int>(snapshot.number("sets")); ++number) {
     const Snapshot one = part_of(snapshot, fmt::format("set {}/", number));

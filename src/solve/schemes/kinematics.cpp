@@ -136,6 +136,8 @@ Outcome Kinematics::attempt(const Configuration& from, double h, Configuration& 
     report.reason = failure;
   } else if (!before.same_side(now)) {
     refuse_other_branch(from, h, before, report);
+  } else {
+    refuse_leap(from, h, to, report);
   }
   return outcome;
 }
@@ -242,6 +244,62 @@ void Kinematics::refuse_other_branch(const Configuration& from, double h, const 
   report.reason =
       "the step leads to another branch of assembly: a loop is folded the other way (the determinant of the constraints has "
       "changed its sign), and the motion does not go there. Take a smaller step H";
+  context_.newton.refuse_last();
+}
+
+bool Kinematics::fits_together(const Configuration& a, const Configuration& b) const {
+  constexpr double fair = 0.1;   // of a node's own velocity: sines do up to steps of some 30 degrees
+  constexpr double rest = 1e-6;  // of the largest velocity
+  const double half = 0.5 * (b.time - a.time), extent = context_.model.extent();
+  const auto v_a = context_.motion.velocities(a), v_b = context_.motion.velocities(b);
+  const auto a_a = context_.motion.accelerations(a), a_b = context_.motion.accelerations(b);
+  const double still = rest * std::max(sizes(a).velocity, sizes(b).velocity);
+  for (std::size_t i = 0; i < 6 * a.nodes.size(); i += 3) {
+    const double unit = i % 6 == 0 ? extent : 1.0;  // places, then rotations
+    double off = 0, size = still * unit;
+    for (std::size_t k = i; k < i + 3; ++k) {
+      off = std::max(off, std::abs(v_b[k] - v_a[k] - half * (a_a[k] + a_b[k])));
+      size = std::max({size, std::abs(v_a[k]), std::abs(v_b[k])});
+    }
+    if (off > fair * size) return false;
+  }
+  return true;
+}
+
+void Kinematics::follow_closely(const Configuration& from, double length, double part, Configuration& c, NewtonReport& report) {
+  constexpr double first = 0.4;      // in the middle, symmetric mechanisms may be in a singular position
+  constexpr double shortest = 1e-3;  // a drive with a corner never fits
+  report.iterations += follow(from, length, c);
+  if (part < shortest || fits_together(from, c)) return;
+  Configuration between;
+  follow_closely(from, first * length, first * part, between, report);
+  follow_closely(between, (1 - first) * length, (1 - first) * part, c, report);
+}
+
+void Kinematics::refuse_leap(const Configuration& from, double h, const Configuration& to, NewtonReport& report) {
+  constexpr double same = 1e-4;
+  if (fits_together(from, to)) return;
+  Configuration closely;
+  bool arrives = true;
+  try {
+    follow_closely(from, h, 1, closely, report);
+    const Sizes size = sizes(to);
+    Configuration difference = to;
+    auto v = context_.motion.velocities(to);
+    const auto v_closely = context_.motion.velocities(closely);
+    for (std::size_t i = 0; i < v.size(); ++i) v[i] -= v_closely[i];
+    context_.motion.set_velocities(v, difference);
+    arrives = sizes(difference).velocity <= same * size.velocity;
+    for (std::size_t n = 0; n < to.nodes.size(); ++n)
+      arrives = arrives && (to.nodes[n].x - closely.nodes[n].x).norm() <= same * context_.model.extent();
+  } catch (const SolutionFailure&) {
+    arrives = false;  // the motion ends on the way
+  }
+  if (arrives) return;
+  report.converged = false;
+  report.reason =
+      "the step leads to another branch of assembly: followed in smaller parts, the motion ends elsewhere, or on the way. Take a "
+      "smaller step H";
   context_.newton.refuse_last();
 }
 

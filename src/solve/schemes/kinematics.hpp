@@ -56,6 +56,14 @@ class Kinematics final : public Scheme {
   /// shorter parts, goes through one. `side`: that before the step.
   void refuse_other_branch(const Configuration& from, double h, const Regularity& side, NewtonReport& report);
 
+  /// Whether velocities and accelerations at two instants can be those of one smooth motion of so short a time: the accelerations
+  /// account for the change of the velocities.
+  bool fits_together(const Configuration& a, const Configuration& b) const;
+  /// follow() in as many parts as are short enough for that, but no shorter than a `part` of the step.
+  void follow_closely(const Configuration& from, double length, double part, Configuration& c, NewtonReport& report);
+  /// Fails a converged step that is long and does not end where the motion leads, followed closely.
+  void refuse_leap(const Configuration& from, double h, const Configuration& to, NewtonReport& report);
+
   double inertia_ = 0;                   ///< of all masses over the extent, and their moments of inertia
   bool driven_ = false;                  ///< no motion is free: this run has been checked for that, or the one that it continues
   std::optional<Regularity> from_, to_;  ///< at the ends of the last attempt; nothing if unknown

@@ -21,23 +21,61 @@ constexpr double resolved = 0.2;
 /// Part of a vibration that must be missing to count: of less, the difference of two runs shows enough, and a resonance that
 /// was passed leaves as much.
 constexpr double counts = 0.4;
+/// Steps that say enough to be fitted with the third derivative of a slow motion beside ω and κ, and fits that say enough for the
+/// vibration to be followed without one.
+constexpr int enough_steps = 5;
+/// What is left of a vibration may be found to be this many times as much as expected, or as little.
+constexpr double near_expected = 2;
+/// If more than this many times the expected amplitude is found, something has excited the vibration, or keeps it going; but
+/// where it is below this part of its former amplitude, what is found is the slow motion.
+constexpr double excited = 1.5, as_before = 0.6;
+/// A vibration whose ω differs by more than this part is another one.
+constexpr double another = 0.1;
+/// Least part of the squares that a fit is taken to leave unexplained: it is known no better.
+constexpr double least_unexplained = 1e-12;
 
 }  // namespace
 
-LostVibrations::LostVibrations(const Collocation& collocation, std::size_t slots)
-    : collocation_(collocation), weights_(), groups_(slots / 3) {
+std::vector<LostVibrations::Pair> LostVibrations::joined(const Model& model) {
+  std::vector<Pair> pairs;
+  for (const Model::Part& part : model.parts) {
+    if (part.nodes.size() != 2) continue;
+    const auto [a, b] = std::minmax(part.nodes[0], part.nodes[1]);
+    if (a > 0 && a < b) pairs.emplace_back(a, b);
+  }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
+}
+
+LostVibrations::LostVibrations(const Collocation& collocation, std::size_t slots, std::vector<Pair> pairs)
+    : collocation_(collocation), slots_(slots), pairs_(std::move(pairs)), weights_(), groups_(slots / 3 + 2 * pairs_.size()) {
   const std::array<double, 4> at{0, collocation.c[0], collocation.c[1], collocation.c[2]};
   for (std::size_t i = 0; i < at.size(); ++i) {
     weights_[i] = 1;
     for (std::size_t j = 0; j < at.size(); ++j)
       if (j != i) weights_[i] /= at[i] - at[j];
   }
-  for (std::vector<double>& difference : differences_) difference.assign(slots, 0.0);
+  for (std::vector<double>& difference : differences_) difference.assign(slots + 6 * pairs_.size(), 0.0);
+}
+
+void LostVibrations::append_relative(std::vector<double>& values) const {
+  values.resize(slots_);
+  for (const auto& [a, b] : pairs_)
+    for (std::size_t k = 0; k < 6; ++k)
+      values.push_back(values[6 * static_cast<std::size_t>(b) + k] - values[6 * static_cast<std::size_t>(a) + k]);
+}
+
+std::size_t LostVibrations::relative(int a, int b) const {
+  if (a > b) std::swap(a, b);
+  if (a == 0) return 6 * static_cast<std::size_t>(b);
+  const auto found = std::lower_bound(pairs_.begin(), pairs_.end(), Pair{a, b});
+  return slots_ + 6 * static_cast<std::size_t>(found - pairs_.begin());
 }
 
 void LostVibrations::look(std::span<const double> v0, std::span<const double> a0, Stages y, Stages v, Stages a) {
   auto& [of_y, of_v, of_a] = differences_;
-  for (std::size_t slot = 0; slot < of_y.size(); ++slot) {
+  for (std::size_t slot = 0; slot < slots_; ++slot) {
     of_y[slot] = 0;
     of_v[slot] = weights_[0] * v0[slot];
     of_a[slot] = weights_[0] * a0[slot];
@@ -47,6 +85,7 @@ void LostVibrations::look(std::span<const double> v0, std::span<const double> a0
       of_a[slot] += weights_[i + 1] * a[i][slot];
     }
   }
+  for (std::vector<double>& difference : differences_) append_relative(difference);
 }
 
 LostVibrations::Effect LostVibrations::effect(double omega_h, double kappa_h) const {
@@ -63,63 +102,119 @@ LostVibrations::Effect LostVibrations::effect(double omega_h, double kappa_h) co
   return {std::abs(difference), std::abs(end), std::abs(end - std::exp(z))};
 }
 
-bool LostVibrations::fit(Group& group, std::size_t first, double h, bool fresh) const {
-  Fit& f = group.fit;
-  const double kept = fresh ? 0 : memory_of_fit;
-  f = {kept * f.xx, kept * f.xv, kept * f.vv, kept * f.ax, kept * f.av, kept * f.aa};
-  for (std::size_t slot = first; slot < first + 3; ++slot) {
-    const double x = differences_[0][slot], v = differences_[1][slot], a = differences_[2][slot];
-    f.xx += x * x, f.xv += x * v, f.vv += v * v;
-    f.ax += a * x, f.av += a * v, f.aa += a * a;
+void LostVibrations::Products::fade(double kept) {
+  for (double* product : {&xx, &xv, &vv, &ax, &av, &aa}) *product *= kept;
+}
+
+void LostVibrations::Products::add(double x, double v, double a, double weight) {
+  xx += weight * x * x, xv += weight * x * v, vv += weight * v * v;
+  ax += weight * a * x, av += weight * a * v, aa += weight * a * a;
+}
+
+bool LostVibrations::solve(const Products& p, double h, bool slow_beside, Group& group) {
+  if (!(p.xx > 0) || !(p.aa > 0)) return false;
+  const double determinant = p.xx * p.vv - p.xv * p.xv;
+  const bool tells_decay = determinant > independent * p.xx * p.vv;
+  // differences of a slow motion that only grow from step to step fit any equation
+  if (slow_beside && !tells_decay) return false;
+  double stiffness = -p.ax / p.xx, damping = 0;
+  if (tells_decay) {
+    stiffness = -(p.ax * p.vv - p.av * p.xv) / determinant;
+    damping = -(p.av * p.xx - p.ax * p.xv) / determinant;
   }
-  if (!(f.xx > 0) || !(f.aa > 0)) return false;
-  const double determinant = f.xx * f.vv - f.xv * f.xv;
-  double stiffness = -f.ax / f.xx, damping = 0;
-  if (determinant > independent * f.xx * f.vv) {
-    stiffness = -(f.ax * f.vv - f.av * f.xv) / determinant;
-    damping = -(f.av * f.xx - f.ax * f.xv) / determinant;
+  const double unexplained = p.aa + 2 * (stiffness * p.ax + damping * p.av) + stiffness * stiffness * p.xx +
+                             2 * stiffness * damping * p.xv + damping * damping * p.vv;
+  if (!(stiffness * h * h > resolved * resolved) || unexplained > (1 - good_fit) * p.aa) return false;
+  const double rate = std::sqrt(stiffness);
+  if (std::abs(rate - group.rate) > another * group.rate) group.certain = group.decays = 0;
+  group.rate = rate;
+  // the first fits, of short steps, are the best: later ones, to which the slow motion adds, must not outweigh them
+  if (tells_decay) {
+    const double certain = determinant / (p.xx * std::max(unexplained, least_unexplained * p.aa));
+    group.certain += certain;
+    group.decays += 0.5 * damping * certain;
   }
-  const double unexplained = f.aa + 2 * (stiffness * f.ax + damping * f.av) + stiffness * stiffness * f.xx +
-                             2 * stiffness * damping * f.xv + damping * damping * f.vv;
-  if (!(stiffness * h * h > resolved * resolved) || unexplained > (1 - good_fit) * f.aa) return false;
-  group.rate = std::sqrt(stiffness);
-  group.decay = std::max(0.5 * damping, 0.0);
+  group.decay = group.certain > 0 ? std::max(group.decays / group.certain, 0.0) : 0;
   return true;
 }
 
-void LostVibrations::take(double h, bool first, std::span<const double> accelerations, std::span<const double> inertia) {
+bool LostVibrations::fit(Group& group, std::size_t first, double h, bool fresh) const {
+  if (fresh) group.fit = {};
+  Fit& f = group.fit;
+  const double cube = h * h * h;
+  f.products.fade(memory_of_fit);
+  f.slow_square = memory_of_fit * f.slow_square + cube * cube;
+  ++f.steps;
+  for (std::size_t k = 0; k < 3; ++k) {
+    f.products.add(differences_[0][first + k], differences_[1][first + k], differences_[2][first + k]);
+    for (std::size_t i = 0; i < 3; ++i) f.slow[k][i] = memory_of_fit * f.slow[k][i] + cube * differences_[i][first + k];
+  }
+  bool found = solve(f.products, h, false, group);
+  if (!found && f.steps >= enough_steps) {
+    Products fast = f.products;
+    for (const auto& [x, v, a] : f.slow) fast.add(x, v, a, -1 / f.slow_square);
+    found = solve(fast, h, true, group);
+  }
+  if (found) ++f.good;
+  return found;
+}
+
+double LostVibrations::amplitude(const Group& group, std::size_t slot, const Effect& effect, bool found) const {
+  const Amplitude& one = group.amplitudes[slot % 3];
+  const double rates = std::hypot(group.rate * differences_[0][slot], differences_[1][slot]);
+  const double shown = group.rate * rates / effect.difference;
+  const double here = std::min(shown, 0.5 * (one.largest - one.least));
+  const bool follows =
+      group.fit.good >= enough_steps && here < near_expected * one.expected && near_expected * here > one.expected;
+  if (!found && !follows) return 0;
+  return here > excited * one.expected && here <= as_before * one.whole ? 0 : here;
+}
+
+void LostVibrations::Amplitude::include(double velocity, double acceleration, bool first) {
+  least = first ? acceleration : std::min(least, acceleration);
+  largest = first ? acceleration : std::max(largest, acceleration);
+  lowest = first ? velocity : std::min(lowest, velocity);
+  highest = first ? velocity : std::max(highest, velocity);
+}
+
+void LostVibrations::Amplitude::step(double amplitude, double decayed, const Effect& effect, double h) {
+  if (amplitude > excited * expected) whole = lost = 0;
+  expected = effect.factor * (amplitude > 0 ? amplitude : expected);
+  if (amplitude > 0)
+    left = memory_of_amplitude * left + (1 - memory_of_amplitude) * amplitude * amplitude;
+  else
+    left *= effect.factor * effect.factor;
+  const double now = std::sqrt(left);
+  whole = std::max(decayed * whole, now);
+  lost = std::min(decayed * lost + effect.error * amplitude, whole);
+  const double missing = std::min(lost, whole - now);
+  if (missing > counts * whole) square += 0.5 * missing * missing * h;
+}
+
+void LostVibrations::take(double h, bool first, std::span<const double> velocities, std::span<const double> accelerations,
+                          std::span<const double> inertia) {
+  std::vector<double> v(velocities.begin(), velocities.end()), a(accelerations.begin(), accelerations.end());
+  append_relative(v);
+  append_relative(a);
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     Group& group = groups_[g];
     const bool found = fit(group, 3 * g, h, first);
     const Effect step = group.rate > 0 ? effect(group.rate * h, group.decay * h) : Effect{0, 1, 0};
     const double decayed = std::exp(-group.decay * h);
-    for (std::size_t slot = 3 * g; found && !inertia.empty() && slot < 3 * g + 3; ++slot) {
-      group.accelerations += differences_[2][slot] * differences_[2][slot];
-      group.forces += inertia[slot] * inertia[slot];
-    }
-    for (std::size_t k = 0; k < 3; ++k) {
-      Amplitude& one = group.amplitudes[k];
-      const std::size_t slot = 3 * g + k;
-      one.least = time_ > 0 ? std::min(one.least, accelerations[slot]) : accelerations[slot];
-      one.largest = time_ > 0 ? std::max(one.largest, accelerations[slot]) : accelerations[slot];
-      if (!(group.rate > 0)) continue;
-      double amplitude = 0;
-      if (found) {
-        const double rates = std::hypot(group.rate * differences_[0][slot], differences_[1][slot]);
-        amplitude = std::min(group.rate * rates / step.difference, 0.5 * (one.largest - one.least));
-        if (step.error * amplitude > group.most_lost) {
-          group.most_lost = step.error * amplitude;
-          group.lost_rate = group.rate;
-        }
-        one.left = memory_of_amplitude * one.left + (1 - memory_of_amplitude) * amplitude * amplitude;
-      } else {
-        one.left *= step.factor * step.factor;
+    for (std::size_t slot = 3 * g; slot < 3 * g + 3; ++slot) {
+      if (found && slot < inertia.size()) {
+        group.accelerations += differences_[2][slot] * differences_[2][slot];
+        group.forces += inertia[slot] * inertia[slot];
       }
-      const double left = std::sqrt(one.left);
-      one.whole = std::max(decayed * one.whole, left);
-      one.lost = std::min(decayed * one.lost + step.error * amplitude, one.whole);
-      const double missing = std::min(one.lost, one.whole - left);
-      if (missing > counts * one.whole) one.square += 0.5 * missing * missing * h;
+      Amplitude& one = group.amplitudes[slot % 3];
+      one.include(v[slot], a[slot], time_ == 0);
+      if (!(group.rate > 0)) continue;
+      const double here = amplitude(group, slot, step, found);
+      if (step.error * here > group.most_lost) {
+        group.most_lost = step.error * here;
+        group.lost_rate = group.rate;
+      }
+      one.step(here, decayed, step, h);
     }
   }
   time_ += h;
@@ -128,6 +223,16 @@ void LostVibrations::take(double h, bool first, std::span<const double> accelera
 double LostVibrations::period(std::size_t slot) const {
   const double rate = groups_[slot / 3].lost_rate;
   return rate > 0 ? 2 * std::numbers::pi / rate : 0;
+}
+
+double LostVibrations::missing_speed(std::size_t slot) const {
+  const double rate = groups_[slot / 3].lost_rate;
+  return rate > 0 ? missing(slot) / rate : 0;
+}
+
+double LostVibrations::range_of_speed(std::size_t slot) const {
+  const Amplitude& one = groups_[slot / 3].amplitudes[slot % 3];
+  return one.highest - one.lowest;
 }
 
 double LostVibrations::missing_force(std::size_t first_slot) const {

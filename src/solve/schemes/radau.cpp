@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "assembly/configuration_snapshot.hpp"
-#include "math/rotation.hpp"
 #include "solve/constraints/constraint_factors.hpp"
 #include "solve/schemes/snapshot_part.hpp"
 
@@ -34,9 +33,9 @@ constexpr double no_shorter = 0.8;
 constexpr int most_untried = 16;
 /// Predictions go through this many ends of steps, and use only points farther apart than the step over longest_growth.
 constexpr std::size_t points_of_guess = 4;
+constexpr double longest_growth = 3;
 /// Fraction of the tolerance of a step that the iteration may leave.
 constexpr double share_of_iteration = 0.02;
-constexpr double longest_growth = 3;
 /// An error of velocities counts this much beside one of displacements over the length of the step, and in full in the first
 /// step after an event: what it excites passes unseen below steps of many of its periods, but not the speed that it has.
 constexpr double weight_of_speeds = 0.15, weight_after_event = 1;
@@ -44,21 +43,6 @@ constexpr double weight_of_speeds = 0.15, weight_after_event = 1;
 constexpr double unexpected = 10;
 /// Steps that differ by less than this fraction use the same matrices.
 constexpr double same = 1e-6;
-/// Corrections that balance an instant within a step: 2 to 4 with matrices of its place, more with earlier ones.
-constexpr int most_balance_corrections = 12;
-
-Vec3 rotation_of(std::span<const double> slots, std::size_t node) {
-  return {slots[6 * node + 3], slots[6 * node + 4], slots[6 * node + 5]};
-}
-
-void set_rotation(std::span<double> slots, std::size_t node, const Vec3& value) {
-  for (std::size_t k = 0; k < 3; ++k) slots[6 * node + 3 + k] = value[static_cast<Eigen::Index>(k)];
-}
-
-/// `sum` += factor · values
-void add(double factor, std::span<const double> values, std::span<double> sum) {
-  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += factor * values[i];
-}
 
 }  // namespace
 
@@ -69,32 +53,24 @@ Radau::Radau(SolverContext& context)
       collocation_(Collocation::radau()),
       solver_(context.assembler, collocation_, context.solver.package()),
       references_(context.assembler, context.options.precision),
+      now_(context, collocation_),
       weight_of_places_(collocation_.embedded.lpNorm<1>()),
       configurations_(static_cast<std::size_t>(collocation_.stages())),
-      prescribed_(configurations_.size()),
       kept_(context.assembler, solver_),
-      balance_matrix_(),
-      balance_((*balance_matrix_.out() = context.assembler.new_matrix(), balance_matrix_), context.solver.package(),
-               kinds_of_rows(context.numbering)) {
+      projection_(context, error_.wanted()) {
   for (std::size_t i = 0; i < configurations_.size(); ++i) {
     *residuals_.emplace_back().out() = context.assembler.new_vector();
     *changes_.emplace_back().out() = context.assembler.new_vector();
   }
-  for (const Model::Part& part : context.model.parts) has_friction_ = has_friction_ || part.element->layout().has_friction();
-  if (error_.wanted() && context.options.target > 0) lost_.emplace(collocation_, 6 * context.model.nodes.size());
-  *right_.out() = context.assembler.new_vector();
-  *solution_.out() = context.assembler.new_vector();
-  const std::vector<double> slots(context.motion.size(), 0.0);
-  now_.y.assign(configurations_.size(), slots);
-  now_.v = now_.a = now_.y;
-  now_.multipliers.assign(configurations_.size(), std::vector<double>(context.assembler.scale().size(), 0.0));
+  if (error_.wanted() && context.options.target > 0)
+    lost_.emplace(collocation_, 6 * context.model.nodes.size(), LostVibrations::joined(context.model));
 }
 
 StartReport Radau::start(Configuration& c) {
   for (const Support& s : context_.model.supports) {
     if (s.component < 3 || s.value == 0) continue;
     for (int other = 3; other < 6; ++other)
-      if (has_equation(static_cast<std::size_t>(6 * s.node + other)))
+      if (context_.numbering.equation(6 * s.node + other) >= 0)
         throw SolutionFailure(
             fmt::format("SCHEME RADAU cannot turn node {} about one axis while it is free about another: hold the two other "
                         "rotations, drive it by a HINGE, or take SCHEME CHUNG",
@@ -122,65 +98,11 @@ void Radau::enter(const std::vector<int>& sides) {
 }
 
 void Radau::predict(const Configuration& from, double h) {
-  const auto stages = static_cast<std::size_t>(collocation_.stages());
-  const auto v0 = context_.motion.velocities(from);
   if (accelerations_.empty()) {
     accelerations_.add(from.time, context_.motion.accelerations(from));
     multipliers_.add(from.time, from.multipliers);
   }
-  for (std::size_t i = 0; i < stages; ++i) {
-    const double time = from.time + h * collocation_.c[static_cast<Eigen::Index>(i)];
-    accelerations_.at(time, h, now_.a[i]);
-    multipliers_.at(time, h, now_.multipliers[i]);
-  }
-  for (std::size_t i = 0; i < stages; ++i) {
-    now_.v[i] = v0;
-    for (std::size_t j = 0; j < stages; ++j)
-      add(h * collocation_.a(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)), now_.a[j], now_.v[i]);
-  }
-  // rates of the rotation vectors follow from these and the angular velocities: ẏ = T(y)⁻¹ W
-  std::vector<std::vector<double>> rates = now_.v;
-  for (int pass = 0; pass < 3; ++pass) {
-    for (std::size_t i = 0; i < stages; ++i) {
-      std::fill(now_.y[i].begin(), now_.y[i].end(), 0.0);
-      for (std::size_t j = 0; j < stages; ++j)
-        add(h * collocation_.a(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)), rates[j], now_.y[i]);
-    }
-    for (std::size_t i = 0; i < stages; ++i)
-      for (std::size_t n = 1; n < from.nodes.size(); ++n)
-        if (const Vec3 y = rotation_of(now_.y[i], n); !y.isZero(0))
-          set_rotation(rates[i], n, rotation_tangent(y).partialPivLu().solve(rotation_of(now_.v[i], n)));
-  }
-}
-
-void Radau::differentiate(const Configuration& from, double h) {
-  const auto stages = static_cast<std::size_t>(collocation_.stages());
-  const auto inverse = [&](std::size_t i, std::size_t j) {
-    return collocation_.inverse(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-  };
-  const auto v0 = context_.motion.velocities(from);
-  for (std::size_t i = 0; i < stages; ++i) {
-    for (std::size_t slot = 0; slot < now_.y[i].size(); ++slot)
-      if (!has_equation(slot)) now_.y[i][slot] = 0;
-    context_.motion.prescribe_increment(from.time, from.time + h * collocation_.c[static_cast<Eigen::Index>(i)], now_.y[i]);
-  }
-  for (std::size_t i = 0; i < stages; ++i) {
-    std::vector<double>& v = now_.v[i];
-    std::fill(v.begin(), v.end(), 0.0);
-    for (std::size_t j = 0; j < stages; ++j) add(inverse(i, j) / h, now_.y[j], v);
-    for (std::size_t n = 1; n < from.nodes.size(); ++n)
-      if (const Vec3 y = rotation_of(now_.y[i], n); !y.isZero(0)) set_rotation(v, n, rotation_tangent(y) * rotation_of(v, n));
-    for (const auto& p : prescribed_[i]) v[p.slot] = p.v;
-  }
-  for (std::size_t i = 0; i < stages; ++i) {
-    std::vector<double>& a = now_.a[i];
-    std::fill(a.begin(), a.end(), 0.0);
-    for (std::size_t j = 0; j < stages; ++j)
-      for (std::size_t slot = 0; slot < a.size(); ++slot) a[slot] += inverse(i, j) / h * (now_.v[j][slot] - v0[slot]);
-    for (std::size_t slot = 0; slot < a.size(); ++slot)
-      if (!has_equation(slot)) a[slot] = 0;
-    for (const auto& p : prescribed_[i]) a[p.slot] = p.a;
-  }
+  now_.predict(from, h, accelerations_, multipliers_);
 }
 
 Imbalance Radau::evaluate(const Configuration& from) {
@@ -292,7 +214,7 @@ NewtonReport Radau::iterate(const Configuration& from, double h, CoupledStages* 
   int uses = 0;            // of the matrices, in this step
   int idle = 0;            // corrections that did not shrink
   for (int k = 0;; ++k) {
-    differentiate(from, h);
+    now_.differentiate(from, h);
     const Imbalance found = evaluate(from);
     report.rows.push_back({k, found.force, found.moment, found.length, found.angle, last.motion, found.worst});
     report.iterations = k;
@@ -417,8 +339,8 @@ Outcome Radau::attempt(const Configuration& from, double h, Configuration& to) {
     configurations_[i] = from;
     configurations_[i].time = from.time + part * h;
     configurations_[i].h = part * h;
-    prescribed_[i] = context_.motion.prescribed(configurations_[i].time);
   }
+  now_.begin(from, h);
   NewtonReport foreseen = foresee(context_.motion.velocities(from), h);
   to = configurations_.back();
   if (!foreseen.converged) return {std::move(foreseen), {}};
@@ -432,12 +354,13 @@ Outcome Radau::attempt(const Configuration& from, double h, Configuration& to) {
   if (error_.wanted()) error = local_error(from, h, to, report.coupled);
   tried_.judged = {h, error.value_or(0)};
   if (error && !(*error <= 1)) return {std::move(report), error};  // the step will be rejected
-  if (constrained() && !complete(to)) {
+  if (constrained() && !fit_end(to)) {
     report.converged = false;
     report.singular = true;
     report.reason = "the accelerations are not determined";
   }
   tried_.time = to.time;
+  tried_.v = context_.motion.velocities(to);
   tried_.a = context_.motion.accelerations(to);
   tried_.multipliers = to.multipliers;
   return {std::move(report), error};
@@ -470,74 +393,17 @@ double Radau::local_error(const Configuration& from, double h, const Configurati
   // the step before did not let expect.
   const double expected = judged_.error * std::pow(h / judged_.step, order_of_error());
   if (error > 1 && coupled && constrained() && judged_.step > 0 && error > unexpected * expected) {
-    renew_balance(to);
-    if (leave_admissible(places) && leave_admissible(speeds)) return judged();
+    projection_.renew(to);
+    if (projection_.leave_admissible(places) && projection_.leave_admissible(speeds)) return judged();
   }
   return error;
 }
 
-bool Radau::restore_balance(Configuration& c) {
-  if (!(matrices_step_ > 0)) return false;
-  const Configuration before = c;
-  const auto v = context_.motion.velocities(c), a = context_.motion.accelerations(c);
-  // Stiff or rigid parts find their positions, the others their accelerations. The change of positions counts as one of
-  // accelerations too, by 13/h² times it, which is more than their error: forces are found again with the accelerations of the
-  // motion.
-  const auto found = [&] {
-    c = before;
-    if (!multipliers_.empty()) multipliers_.at(c.time, 0, c.multipliers);
-    const bool moved = balance_near(c, 1);
-    context_.motion.set_velocities(v, c);
-    context_.motion.set_accelerations(a, c);
-    return moved && balance_near(c, most_balance_corrections);
-  };
-  if (!factored_ || !found()) {
-    // Matrices good enough for the step may not be so here; the next phase must not find those of this place.
-    keep(at_start_of_step(before), matrices_step_);
-    kept_.drop();
-    kept_step_ = 0;
-    if (!found()) {
-      c = before;
-      return false;
-    }
-  }
-  context_.redundancy.share(c);
-  return true;
-}
-
-bool Radau::balance_near(Configuration& c, int most) {
-  Assembler& assembler = context_.assembler;
-  // K + (γ/h) C + (γ/h)² M, with the factors that the step has left
-  const double rate = solver_.real_rate() / matrices_step_, precision = context_.options.precision;
-  std::vector<double> y(context_.motion.size());
-  // With matrices of another place one correction may enlarge the residual, two in a row must halve it.
-  double left_before = std::numeric_limits<double>::infinity(), left_two_before = left_before;
-  for (int k = 0;; ++k) {
-    if (most == 1 && k == 1) return true;
-    assembler.residual(c, residuals_[0]);
-    const Imbalance found = imbalance(assembler, references_, residuals_[0]);
-    const double left = std::max(found.largest(), found.constraint_force);
-    if (found.within(precision)) return true;
-    if (k == most || !std::isfinite(left) || left > 0.5 * left_two_before || !solver_.solve_real(residuals_[0], changes_[0]))
-      return false;
-    left_two_before = std::exchange(left_before, left);
-    const auto change = assembler.gather(changes_[0]);
-    std::fill(y.begin(), y.end(), 0.0);
-    context_.motion.scatter(change, y);
-    assembler.add_to_multipliers(change, c.multipliers);
-    auto v = context_.motion.velocities(c), a = context_.motion.accelerations(c);
-    add(rate, y, v);
-    add(rate * rate, y, a);
-    const Configuration from = c;
-    context_.motion.move(from, y, c);
-    c = at_start_of_step(std::move(c));
-    context_.motion.set_velocities(v, c);
-    context_.motion.set_accelerations(a, c);
-  }
-}
-
 void Radau::accept() {
-  if (lost_) lost_->take(tried_.judged.step, accelerations_.points() == 1, tried_.a, inertia_of(lost_->differences()));
+  if (lost_) {
+    const bool first = accelerations_.points() == 1;
+    lost_->take(tried_.judged.step, first, tried_.v, tried_.a, inertia_of(lost_->differences()));
+  }
   accelerations_.add(tried_.time, tried_.a);
   multipliers_.add(tried_.time, tried_.multipliers);
   open_ = tried_.open;
@@ -557,12 +423,7 @@ void Radau::save(Snapshot& snapshot) const {
   snapshot.put("radau/coupled", {coupled_.step, static_cast<double>(coupled_.tries), static_cast<double>(coupled_.left)});
   save_part(kept_, "radau/kept/", snapshot);
   save_part(references_, "radau/", snapshot);
-  save_part(balance_, "radau/", snapshot);
-  if (balance_kept_) {
-    Snapshot kept;
-    balance_.save_factors(kept);
-    save_part(kept, "radau/balance/", snapshot);
-  }
+  save_part(projection_, "radau/", snapshot);
 }
 
 void Radau::load(const Snapshot& snapshot) {
@@ -571,18 +432,15 @@ void Radau::load(const Snapshot& snapshot) {
   accelerations_.load(snapshot, "radau/accelerations");
   multipliers_.load(snapshot, "radau/multipliers");
   references_.load_memory(part_of(snapshot, "radau/"));
-  balance_.load(part_of(snapshot, "radau/"));
-  balance_kept_ = balance_.load_factors(part_of(snapshot, "radau/balance/"));
+  projection_.load(part_of(snapshot, "radau/"));
   solver_.load(snapshot);
-  if (snapshot.has("radau/open")) open_ = snapshot.number("radau/open");  // files of earlier versions lack it
-  if (snapshot.has("radau/judged")) judged_ = {snapshot.array("radau/judged").at(0), snapshot.array("radau/judged").at(1)};
-  if (snapshot.has("radau/coupled")) {
-    const std::vector<double>& coupled = snapshot.array("radau/coupled");
-    coupled_ = {coupled.at(0), static_cast<int>(coupled.at(1)), static_cast<int>(coupled.at(2))};
-  }
+  open_ = snapshot.number("radau/open");
+  judged_ = {snapshot.array("radau/judged").at(0), snapshot.array("radau/judged").at(1)};
+  const std::vector<double>& coupled = snapshot.array("radau/coupled");
+  coupled_ = {coupled.at(0), static_cast<int>(coupled.at(1)), static_cast<int>(coupled.at(2))};
   kept_.load(part_of(snapshot, "radau/kept/"));
   kept_step_ = 0;
-  if (snapshot.has("radau/matrices_step")) matrices_step_ = snapshot.number("radau/matrices_step");  // as above
+  matrices_step_ = snapshot.number("radau/matrices_step");
   if (const double h = snapshot.number("radau/kept_step"); h > 0 && kept_.restore(h)) {
     solver_.restore_factors();
     kept_step_ = matrices_step_ = h;

@@ -7,8 +7,10 @@
 #include "solve/algebra/references.hpp"
 #include "solve/schemes/coupled_stages.hpp"
 #include "solve/schemes/dynamics.hpp"
+#include "solve/schemes/end_projection.hpp"
 #include "solve/schemes/kept_matrices.hpp"
 #include "solve/schemes/lost_vibrations.hpp"
+#include "solve/schemes/stage_motion.hpp"
 #include "solve/schemes/stage_solver.hpp"
 
 namespace engrane::solve {
@@ -41,11 +43,6 @@ class Radau final : public Dynamics {
   void start_memory(const Configuration& c, const MasslessMotions* massless, bool softened) override;
   void restart_memory(Configuration& c) override;
 
-  /// The motion of a step, one entry for each stage.
-  struct Stages {
-    std::vector<std::vector<double>> y, v, a;      ///< by motion slot
-    std::vector<std::vector<double>> multipliers;  ///< kλ
-  };
   /// A step and the estimate of its error.
   struct Judged {
     double step = 0, error = 0;
@@ -53,7 +50,7 @@ class Radau final : public Dynamics {
   /// State at the end of a step.
   struct End {
     double time = 0;
-    std::vector<double> a, multipliers;
+    std::vector<double> v, a, multipliers;
     double open = 0;  ///< largest constraint violation, over a length or in radians
     Judged judged;
   };
@@ -66,8 +63,6 @@ class Radau final : public Dynamics {
   };
   /// Predicts the stages of a step.
   void predict(const Configuration& from, double h);
-  /// Velocities and accelerations of the stages from y, including what is prescribed.
-  void differentiate(const Configuration& from, double h);
   /// Sets the stages' configurations, evaluates their residuals and compares these with the references.
   Imbalance evaluate(const Configuration& from);
   /// Outcome::error of a step of h that has converged; `coupled`: with the tangents of each stage.
@@ -105,39 +100,22 @@ class Radau final : public Dynamics {
   NewtonReport iterate(const Configuration& from, double h, CoupledStages* exact = nullptr);
   /// Finds the stages of a step, in now_: with the kept matrices, or with the tangents of each stage if these do not converge.
   NewtonReport find_stages(const Configuration& from, double h);
-  /// Fits velocities, accelerations and multipliers to the positions at the end of a step; false if they are not determined.
-  bool complete(Configuration& c);
-  /// The velocities alone, and the rest.
-  bool fit_velocities(Configuration& c);
-  bool fit_accelerations(Configuration& c);
-  /// Relative size below which both need no further correction.
-  double least_correction() const;
-  /// Whether a correction of velocities or accelerations (by motion slot) exceeds least_correction() of the largest of `rates`,
-  /// over the length of the model or in radians.
-  bool worth(std::span<const double> change, std::span<const double> rates) const;
-  /// Evaluates the matrix for this at `c`. Controlled steps keep it as long as the iteration converges fast with it.
-  void renew_balance(const Configuration& c);
-  /// Takes out of `rates` (by motion slot) what the constraints where the matrix was evaluated do not admit, by the least change
-  /// in the metric of the masses; false if singular.
-  bool leave_admissible(std::vector<double>& rates);
-  /// Finds the change of the motion (by slot) and of multipliers (by equation) for right_side_; false if singular.
-  bool solve_balance(std::vector<double>& change, std::span<const double>& found);
+  /// Gives the end of a step its velocities, accelerations and multipliers; false if they are not determined.
+  bool fit_end(Configuration& c);
   /// Masses times these accelerations of nodes, by motion slot; empty if there are no matrices.
   std::vector<double> inertia_of(std::span<const double> accelerations);
-  bool has_equation(std::size_t slot) const { return context_.numbering.equation(static_cast<int>(slot)) >= 0; }
 
   Extrapolation accelerations_, multipliers_;  ///< at the ends of steps since the last event
   Collocation collocation_;
   StageSolver solver_;
   References references_;
-  Stages now_;                                       ///< of the present step
+  StageMotion now_;                                  ///< of the present step
   double weight_of_places_;                          ///< sum of the weights of stages in the embedded formula, by magnitude
   double open_ = 0;                                  ///< End::open of the last accepted step
   Judged judged_;                                    ///< the last accepted step; step 0: none since the last event
   End tried_;                                        ///< of the last attempt
   std::vector<double> last_change_, change_before_;  ///< the last two corrections of the end of the step, by motion slot
   std::vector<Configuration> configurations_;
-  std::vector<std::vector<MotionSlots::Prescribed>> prescribed_;
   std::vector<Owned<Vec>> residuals_, changes_;
   KeptMatrices kept_;
   std::optional<LostVibrations> lost_;             ///< if an estimate of the error is wanted
@@ -147,13 +125,7 @@ class Radau final : public Dynamics {
   double matrices_step_ = 0;  ///< for which they were last made; 0: never
   bool factored_ = false;     ///< the solver has their factors, and so it would after a restart at the beginning of the step
   std::vector<double> kept_scale_;
-  bool has_friction_ = false;
-  Owned<Mat> balance_matrix_;
-  LinearSolver balance_;
-  bool balance_kept_ = false;       ///< its matrix may be reused
-  bool balance_fits_ = false;       ///< and was evaluated at this very configuration
-  std::vector<double> right_side_;  ///< by equation
-  Owned<Vec> right_, solution_;
+  EndProjection projection_;
 };
 
 }  // namespace engrane::solve

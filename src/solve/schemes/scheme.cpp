@@ -47,7 +47,7 @@ void apply_initial_velocities(const SolverContext& context, Configuration& c) {
 }
 
 void Scheme::refuse_half_turns(std::span<const double> y, NewtonReport& report) const {
-  if (!report.converged) return;
+  if (!report.converged || context_.motion.adds_rotations()) return;
   for (std::size_t i = 1; i < context_.model.nodes.size(); ++i) {
     const double turn = Vec3(y[6 * i + 3], y[6 * i + 4], y[6 * i + 5]).norm();
     if (turn < std::numbers::pi) continue;

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "model/linear_statics.hpp"
 #include "solve/algebra/rigid_motions.hpp"
 
 namespace engrane::solve {
@@ -31,7 +32,7 @@ SolverContext::SolverContext(const Model& m, SolverOptions chosen, MPI_Comm comm
       assembler(m, numbering, comm, half_is_enough(m, options, numbering)),
       solver(assembler.matrix(), options.package, kinds_of_rows(numbering)),
       newton(assembler, solver, options.precision, options.iterations),
-      motion(m, numbering),
+      motion(m, numbering, is_linear_statics(m)),
       redundancy(assembler, motion),
       start(assembler, solver, motion, redundancy),
       grips(assembler, redundancy, start, options),
@@ -54,7 +55,7 @@ void SolverContext::load(const Snapshot& snapshot) {
   const auto words = [](int normal) {
     return normal < 0 ? std::string("in space") : fmt::format("in the plane {}", plane_name(normal));
   };
-  const int before = snapshot.has("plane") ? static_cast<int>(snapshot.number("plane")) : -1;
+  const int before = static_cast<int>(snapshot.number("plane"));
   if (before != model.plane.normal)
     throw SolutionFailure(
         fmt::format("the run that wrote the restart point was solved {}, this one is solved {}: give the same PLANE in .SAM",

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/linear_statics.hpp"
 #include "solve/schemes/equilibrium_tangent.hpp"
 
 namespace engrane::solve {
@@ -34,6 +35,17 @@ bool has_no_potential(Mat tangent, Vec motion) {
   return lost > part * std::abs(energy);
 }
 
+/// Whether forces of elements are linear in rotation vectors, as with small displacements. Their tangent by rotations that start
+/// at the equilibrium is that of no potential; their own, at rest, is positive.
+bool has_linear_rotations(const Model& model) {
+  return has_linear_forces(model) || std::any_of(model.parts.begin(), model.parts.end(), [](const Model::Part& part) {
+           const Layout& layout = part.element->layout();
+           bool turns = false;
+           for (std::size_t i = 0; i < layout.needs.size(); ++i) turns = turns || layout.needs_any(i, NodeNeed::rotation);
+           return turns && part.element->is_linear();
+         });
+}
+
 /// Number of directions in which the equilibrium is unstable; nullopt if its tangent is singular or has no potential.
 std::optional<int> examine(SolverContext& context, const Configuration& equilibrium) {
   EquilibriumTangent tangent(context);
@@ -49,7 +61,7 @@ std::optional<int> examine(SolverContext& context, const Configuration& equilibr
 StabilityWatch::StabilityWatch(SolverContext& context)
     : context_(context),
       active_(context.options.analysis == SolverOptions::Analysis::statics && !context.options.path.follow &&
-              !context.newton.keeps_one_tangent() && context.numbering.equations() <= most_equations),
+              !has_linear_rotations(context.model) && context.numbering.equations() <= most_equations),
       due_(context.options.begin + (context.options.end - context.options.begin) / looks) {}
 
 void StabilityWatch::take(const Configuration& equilibrium, bool last) {

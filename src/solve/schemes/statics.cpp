@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "assembly/energies.hpp"
+#include "model/linear_statics.hpp"
 #include "solve/algebra/probe.hpp"
 #include "solve/constraints/diagnosis.hpp"
 #include "solve/schemes/descent.hpp"
@@ -70,6 +71,7 @@ class Statics::Inside final : public Within {
 Statics::Statics(SolverContext& context)
     : Scheme(context),
       error_(context.assembler, context.options),
+      branch_(context, !error_.wanted() && !has_linear_forces(context.model)),
       path_(points, longest_continuation),
       forces_(points, longest_continuation),
       way_(error_.wanted() ? context.motion.size() : 0, 0.0),
@@ -78,15 +80,7 @@ Statics::Statics(SolverContext& context)
   for (std::size_t p = 0; p < context.model.parts.size(); ++p)
     if (context.model.parts[p].element->has_gaps()) contacts_.push_back(static_cast<int>(p));
   if (!contacts_.empty()) supports_.emplace(context.assembler);
-  if (std::all_of(context.model.parts.begin(), context.model.parts.end(),
-                  [](const Model::Part& part) { return part.element->is_linear(); }))
-    context_.newton.keep_one_tangent();
-  watched_ = may_be_singular();
-}
-
-bool Statics::may_be_singular() const {
-  return !error_.wanted() && !context_.newton.keeps_one_tangent() && context_.solver.direct() &&
-         context_.numbering.slots() > context_.numbering.motion_slots();
+  if (has_linear_forces(context.model)) context_.newton.keep_one_tangent();
 }
 
 StartReport Statics::start(Configuration& c) {
@@ -99,7 +93,19 @@ StartReport Statics::start(Configuration& c) {
     context_.assembler.choose_scale(c, {1, 0, 0}, context_.options.scale);
   }
   if (context_.newton.keeps_one_tangent()) context_.newton.refine_next();
-  const NewtonReport newton = find(c, 0, c, false);
+  std::optional<Configuration> before;
+  if (!contacts_.empty() && !context_.newton.keeps_one_tangent()) before = c;
+  NewtonReport newton = find(c, 0, c, false);
+  // what contacts that only touch leave free, as a string that is not tight yet, they may hold under load
+  if (newton.singular && before) {
+    Configuration other;
+    if (NewtonReport crept = creep(*before, 0, other); crept.converged) {
+      c = std::move(other);
+      newton = std::move(crept);
+    } else {
+      context_.assembler.tangent(c, {1, 0, 0});  // for the message
+    }
+  }
   if (!newton.converged) {
     std::string why = fmt::format("no equilibrium at the start, t = {:.6g}: {}", c.time, newton.reason);
     if (newton.conflict) throw SolutionFailure(why);
@@ -111,6 +117,7 @@ StartReport Statics::start(Configuration& c) {
         fmt::format("no equilibrium at the start, t = {:.6g}: the stiffness matrix is singular", c.time), resistance);
     if (!free.empty()) throw SolutionFailure(free);
     why += "; " + explain_residual(context_.assembler, c, newton);
+    why += explain_small_turns(context_.model, c);
     throw SolutionFailure(
         why + ". Loads without NF, and those whose function is not 0 there, act in full from the start: let them grow from 0");
   }
@@ -126,7 +133,7 @@ Outcome Statics::attempt(const Configuration& from, double h, Configuration& to)
   if (supports_) loads_ = context_.newton.loads();
   if (!error_.wanted() || path_.empty()) {
     NewtonReport report = find(from, h, to, false);
-    if (watched_) stay_on_branch(from, h, report, to);
+    stay_on_branch(from, h, report, to);
     return {std::move(report), {}};
   }
   if (has_middle_) begin_path(from.time, from.multipliers);  // of a step that was rejected
@@ -137,6 +144,12 @@ Outcome Statics::attempt(const Configuration& from, double h, Configuration& to)
 
 Outcome Statics::snap(const Configuration& from, double h, Configuration& to) {
   if (context_.newton.keeps_one_tangent()) return {};  // a linear model has one equilibrium
+  NewtonReport report = creep(from, h, to);
+  if (!report.converged) return {std::move(report), {}};
+  return {std::move(report), error_.wanted() ? error(from, h) : std::nullopt};
+}
+
+NewtonReport Statics::creep(const Configuration& from, double h, Configuration& to) {
   const MotionSlots::Origin origin(from);
   to = from;
   to.time = from.time + h;
@@ -147,7 +160,7 @@ Outcome Statics::snap(const Configuration& from, double h, Configuration& to) {
   NewtonReport report = resisted_balance(false, origin, y_, to);
   tried_time_ = to.time;
   tried_forces_ = to.multipliers;
-  return {std::move(report), error_.wanted() ? error(from, h) : std::nullopt};
+  return report;
 }
 
 bool Statics::leaps(const Configuration& from, const Configuration& to) {
@@ -187,34 +200,17 @@ NewtonReport Statics::find(const Configuration& from, double h, Configuration& t
   return report;
 }
 
-bool Statics::answer_probe(Owned<Vec>& load, Owned<Vec>& motion) {
-  for (Owned<Vec>* vector : {&load, &motion}) *vector->out() = context_.assembler.new_vector();
-  fill_loads(context_.assembler, load);
-  return context_.solver.solve(load, motion);
-}
-
-void Statics::probe_start() {
-  Owned<Vec> load, motion;
-  PetscReal size = std::numeric_limits<double>::infinity();
-  if (answer_probe(load, motion)) check_petsc(VecNorm(motion, NORM_2, &size));
-  response_ = std::isfinite(size) ? size : std::numeric_limits<double>::infinity();
-}
-
 void Statics::stay_on_branch(const Configuration& from, double h, NewtonReport& report, Configuration& to) {
-  // The response grows with the reciprocal of the distance from the position. Measured for four bars: 1e15 in it, 18 to 717
-  // elsewhere.
-  constexpr double singular = 1e8;
-  tried_h_ = h;
-  if (last_y_.empty() || !(last_response_ > 0) || !(response_ > singular * last_response_)) return;
-  std::vector<double> found = y_;
+  branch_.tried(h);
+  if (!branch_.doubts()) return;
+  std::vector<double> found = std::exchange(y_, branch_.continued(h));
   Configuration other = from;
   other.time = from.time + h;
   other.h = h;
-  for (std::size_t i = 0; i < y_.size(); ++i) y_[i] = h / last_h_ * last_y_[i];
   context_.motion.prescribe_increment(from.time, other.time, y_);
   NewtonReport again = balance(MotionSlots::Origin(from), y_, other);
   again.iterations += report.iterations;
-  response_ = last_response_;
+  branch_.disregard();
   if (again.converged) {
     to = std::move(other);
     report = std::move(again);
@@ -248,11 +244,7 @@ std::optional<double> Statics::error(const Configuration& from, double h) const 
 void Statics::accept() {
   largest_force_ = std::max(largest_force_, references().last_force());
   if (leapt_) supports_.reset();  // shorter steps do not help, and would in no later one
-  if (watched_) {
-    last_y_ = y_;
-    last_h_ = tried_h_;
-    if (response_ > 0 && std::isfinite(response_)) last_response_ = response_;
-  }
+  branch_.accept(y_);
   if (!error_.wanted()) return;
   for (std::size_t i = 0; i < way_.size(); ++i) way_[i] += y_[i];
   path_.add(tried_time_, way_);
@@ -280,10 +272,7 @@ std::unique_ptr<Within> Statics::within(const Configuration& from, const Configu
 void Statics::save(Snapshot& snapshot) const {
   error_.save(snapshot);
   snapshot.put("scheme/leaps", {supports_ ? 1.0 : 0.0, largest_force_});
-  if (watched_) {
-    snapshot.put("scheme/last_step", last_y_);
-    snapshot.put("scheme/last_length_and_response", {last_h_, last_response_});
-  }
+  branch_.save(snapshot);
   if (!error_.wanted()) return;
   path_.save(snapshot, "scheme/path");
   forces_.save(snapshot, "scheme/forces");
@@ -296,11 +285,7 @@ void Statics::load(const Snapshot& snapshot) {
     if (snapshot.array("scheme/leaps").at(0) == 0) supports_.reset();
     largest_force_ = snapshot.array("scheme/leaps").at(1);
   }
-  if (watched_ && snapshot.has("scheme/last_step")) {
-    last_y_ = snapshot.array("scheme/last_step");
-    last_h_ = snapshot.array("scheme/last_length_and_response").at(0);
-    last_response_ = snapshot.array("scheme/last_length_and_response").at(1);
-  }
+  branch_.load(snapshot);
   if (!error_.wanted() || !snapshot.has("scheme/way")) return;
   path_.load(snapshot, "scheme/path");
   forces_.load(snapshot, "scheme/forces");
@@ -323,11 +308,9 @@ std::vector<double> Statics::unknowns_of(std::span<const double> y, const Config
 }
 
 NewtonReport Statics::balance(const MotionSlots::Origin& from, std::span<double> y, Configuration& to) {
-  int evaluations = 0;
-  response_ = 0;
-  const Newton::Apply apply = [&, moved = move(from, y)](std::span<const double> unknowns, Configuration& c) {
-    // the factors are still those of the first correction
-    if (watched_ && ++evaluations == 2) probe_start();
+  branch_.begin();
+  const Newton::Apply apply = [this, moved = move(from, y)](std::span<const double> unknowns, Configuration& c) {
+    branch_.look();
     moved(unknowns, c);
   };
   context_.assembler.spread(unknowns_of(y, to), unknowns_);
@@ -358,7 +341,7 @@ void Statics::require_resistance(const Configuration& c, NewtonReport& report) {
   const std::string what = fmt::format("t = {:.6g}: the stiffness matrix is singular up to rounding", c.time);
   std::string free;
   Owned<Vec> load, motion;
-  if (!answer_probe(load, motion))
+  if (!answer_probe(context_.assembler, context_.solver, load, motion))
     free = explain_singular(context_.assembler, what, Resistance::at_rest);
   else if (relative_stiffness(context_.assembler, context_.assembler.matrix(), motion, load) <= rounding)
     free = explain_null_vector(context_.assembler, what, context_.assembler.gather(motion), Resistance::at_rest);

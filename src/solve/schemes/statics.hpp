@@ -5,6 +5,7 @@
 
 #include "assembly/reactions.hpp"
 #include "math/extrapolation.hpp"
+#include "solve/schemes/branch_watch.hpp"
 #include "solve/schemes/scheme.hpp"
 #include "solve/schemes/step_error.hpp"
 
@@ -41,6 +42,8 @@ class Statics : public Scheme {
   /// Finds the equilibrium after h; Newton's iteration begins on the path (`predicted`), or at `from`. `to` may be `from`
   /// itself, which is then lost even if nothing is found.
   NewtonReport find(const Configuration& from, double h, Configuration& to, bool predicted);
+  /// Finds the equilibrium that the structure comes to from `from` down the slope of its energy (Descent).
+  NewtonReport creep(const Configuration& from, double h, Configuration& to);
   /// Finds an equilibrium in the middle of the first step of a path, for the others to be compared with.
   bool find_middle(const Configuration& from, double h);
   std::optional<double> error(const Configuration& from, double h) const;
@@ -62,14 +65,6 @@ class Statics : public Scheme {
   /// finds nothing, or what nothing resists, or goes far, or ends where some only touch, which it may come to past others.
   NewtonReport balance_contacts(const MotionSlots::Origin& from, std::span<double> y, Configuration& to);
 
-  /// Whether Newton's iteration is to be watched for a start in a singular position: where constraints lose their rank, as with
-  /// bars in line, the first correction leads to either of two assembly branches, as rounding decides.
-  bool may_be_singular() const;
-  /// Solves for the probe (fill_loads()) with the factors at hand; false if that fails.
-  bool answer_probe(Owned<Vec>& load, Owned<Vec>& motion);
-  /// To be called with the factors of the step's first correction: how large the solution for the probe is tells
-  /// whether the step begins in a singular position.
-  void probe_start();
   /// Repeats a step that began in a singular position from the displacements of the last one, which stay on its branch.
   void stay_on_branch(const Configuration& from, double h, NewtonReport& report, Configuration& to);
 
@@ -86,13 +81,9 @@ class Statics : public Scheme {
   bool leapt_ = false;                 ///< leaps() of that step
   double largest_force_ = 0;           ///< on a node, in accepted steps
   bool resists_ = false;               ///< require_resistance() was passed
-  bool watched_;                       ///< may_be_singular()
-  /// Size of the solution for the probe at the beginning of the step tried last, and of the last accepted step; 0: unknown.
-  double response_ = 0, last_response_ = 0;
-  std::vector<double> last_y_;  ///< displacements of the last accepted step, of length last_h_; empty before the first
-  double tried_h_ = 0, last_h_ = 0;
   Owned<Vec> unknowns_;
   StepError error_;
+  BranchWatch branch_;
   Extrapolation path_, forces_;  ///< displacements since the start by motion slot, and multipliers
   std::vector<double> way_;      ///< the former at the last accepted equilibrium
   std::vector<double> y_;        ///< the step tried last, its end and its multipliers

@@ -171,6 +171,77 @@ TEST(Beam, ClosedForm) {
       }
 }
 
+/// A bar off the line of the nodes, of a material that expands.
+std::vector<deck::Record> warm_records() {
+  deck::ProfileCard profile;
+  profile.shape = {"RECTANGLE", {0.3, 0.2}};
+  profile.offset = {{0.05, 0.1}};
+  std::vector<deck::Record> records = sections(profile);
+  deck::MaterialCard material;
+  material.young = {900};
+  material.poisson = {0.25};
+  material.density = 30;
+  material.expansion = {0.01};
+  records.emplace_back();
+  records.back().id = 1;
+  records.back().data = material;
+  return records;
+}
+
+std::unique_ptr<Element> warm_beam(const std::vector<int>& nodes, double damping, bool unshearable, const NodeMap& places,
+                                   const Vec3& side, const Temperatures& temperatures) {
+  static const std::vector<deck::Record> records = warm_records();
+  BeamData beam;
+  beam.nodes = nodes;
+  beam.profile = beam.material = 1;
+  beam.axis_2 = list(side);
+  beam.damping = damping;
+  beam.unshearable = unshearable;
+  return build(beam_type(), beam, places, {.records = &records, .temperatures = &temperatures});
+}
+
+/// With temperatures that differ from node to node and change with time.
+TEST(Beam, Warm) {
+  static const Wave wave(0.3, 0.7, 1.9, 0.4);
+  static const Temperatures temperatures = {{1, {9, &wave}}, {3, {14, nullptr}}};
+  for (const std::vector<int>& nodes : {std::vector{1, 2, 3}, std::vector{1, 3}})
+    for (const double damping : {0.0, 0.3})
+      for (const bool unshearable : {false, true}) {
+        Subject s;
+        s.name = fmt::format("{} nodes, warm, damping {}, unshearable {}", nodes.size(), damping, unshearable);
+        for (const int id : nodes) s.nodes[id] = bow.at(id);
+        s.build = [=](const Mat3& Q) {
+          return warm_beam(nodes, damping, unshearable, turned(bow, Q), Q * Vec3(-0.2, 0.3, 1), temperatures);
+        };
+        s.turn = 0.6;
+        s.step = 1e-4;
+        s.tolerance = 1e-7;
+        for (const Check check : {Check::rigid, Check::zero}) s.skip[check] = "warmth has forces at rest";
+        s.skip[Check::equilibrium] = "inertia pushes against space";
+        if (damping > 0) s.skip[Check::lagrange] = "a damper has no potential";
+        run_suite(s);
+      }
+}
+
+/// A curved beam of even temperature grows in all directions, freely, and turned as well.
+TEST(Beam, WarmAndFree) {
+  const Temperatures temperatures = {{1, {14}}, {2, {14}}, {3, {14}}};
+  const auto beam = warm_beam({1, 2, 3}, 0, false, bow, {-0.2, 0.3, 1}, temperatures);
+  StateBuffer state(*beam, bow);
+  const auto largest = [&] {
+    double most = 0;
+    for (const double r : residual_of(*beam, state)) most = std::max(most, std::abs(r));
+    return most;
+  };
+  EXPECT_GT(largest(), 1);
+  const Mat3 turn = rotation_exp(Vec3(0.7, -1.1, 2));
+  for (NodeState& node : state.nodes) {
+    node.x = Vec3(1, 2, 3) + 1.14 * (turn * node.x);
+    node.R = turn;
+  }
+  EXPECT_LT(largest(), 1e-13);
+}
+
 /// Strains that are held, each alone and together, also of a section that couples them.
 TEST(Beam, Held) {
   for (const std::vector<int>& nodes : {std::vector{1, 2, 3}, std::vector{1, 3}})

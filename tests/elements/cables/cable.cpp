@@ -105,38 +105,42 @@ TEST(Catenary, FindsTheTensionOfAnySpan) {
   EXPECT_LE(worst, 1e-13) << cases << " spans";
 }
 
-/// EA = 1e4, 10 N/m, 10 m on a span of 8 m: horizontal tension and sag.
+/// EA = 1e4, 10 N/m, 10 m from the origin to a place.
+struct Hanging {
+  explicit Hanging(const Vec3& end) : Hanging(NodeMap{{1, Vec3::Zero()}, {2, end}}) {}
+  explicit Hanging(const NodeMap& nodes) : cable(build(cable_type(), data(), nodes)), state(*cable, nodes) {
+    state.gravity = {0, 0, -5};
+  }
+  static CableData data() {
+    CableData data;
+    data.nodes = {1, 2};
+    data.stiffness = 1e4;
+    data.mass = 2;
+    data.length = 10;
+    return data;
+  }
+  double channel(const std::string& name) const { return channel_of(*cable, state, name); }
+
+  std::unique_ptr<Element> cable;
+  StateBuffer state;
+};
+
+/// On a span of 8 m: horizontal tension and sag.
 TEST(Cable, HangsAsACatenary) {
-  const NodeMap nodes = {{1, Vec3::Zero()}, {2, {8, 0, 0}}};
-  CableData data;
-  data.nodes = {1, 2};
-  data.stiffness = 1e4;
-  data.mass = 2;
-  data.length = 10;
-  const auto cable = build(cable_type(), data, nodes);
-  StateBuffer state(*cable, nodes);
-  state.gravity = {0, 0, -5};
-  EXPECT_NEAR(channel_of(*cable, state, "FORCE_AX"), 33.354808620, 5e-10);
-  EXPECT_NEAR(channel_of(*cable, state, "FORCE_BX"), -33.354808620, 5e-10);
-  EXPECT_NEAR(channel_of(*cable, state, "FORCE_AZ"), -50, 1e-12);
-  EXPECT_NEAR(channel_of(*cable, state, "FORCE_BZ"), -50, 1e-12);
-  EXPECT_NEAR(channel_of(*cable, state, "SAG"), 2.687462764, 5e-10);
-  EXPECT_NEAR(channel_of(*cable, state, "TENSION_A"), std::hypot(33.354808620, 50), 1e-9);
+  const Hanging cable({8, 0, 0});
+  EXPECT_NEAR(cable.channel("FORCE_AX"), 33.354808620, 5e-10);
+  EXPECT_NEAR(cable.channel("FORCE_BX"), -33.354808620, 5e-10);
+  EXPECT_NEAR(cable.channel("FORCE_AZ"), -50, 1e-12);
+  EXPECT_NEAR(cable.channel("FORCE_BZ"), -50, 1e-12);
+  EXPECT_NEAR(cable.channel("SAG"), 2.687462764, 5e-10);
+  EXPECT_NEAR(cable.channel("TENSION_A"), std::hypot(33.354808620, 50), 1e-9);
 }
 
 /// From one place both halves hang side by side: 5 m and what 25 N per metre stretch them.
 TEST(Cable, HangsFromOnePlace) {
-  const NodeMap nodes = {{1, Vec3::Zero()}, {2, Vec3::Zero()}};
-  CableData data;
-  data.nodes = {1, 2};
-  data.stiffness = 1e4;
-  data.mass = 2;
-  data.length = 10;
-  const auto cable = build(cable_type(), data, nodes);
-  StateBuffer state(*cable, nodes);
-  state.gravity = {0, 0, -5};
-  EXPECT_NEAR(channel_of(*cable, state, "FORCE_AZ"), -50, 1e-4);
-  EXPECT_NEAR(channel_of(*cable, state, "SAG"), 5 + 50.0 * 5 / 2 / 1e4, 1e-4);
+  const Hanging cable(Vec3::Zero());
+  EXPECT_NEAR(cable.channel("FORCE_AZ"), -50, 1e-4);
+  EXPECT_NEAR(cable.channel("SAG"), 5 + 50.0 * 5 / 2 / 1e4, 1e-4);
 }
 
 TEST(Cable, FaultsOfTheCard) {

@@ -306,13 +306,6 @@ TEST(Cam, SwingsTheArmItIsMadeFor) {
   }
 }
 
-double derived_of(const Element& element, const std::string& name) {
-  for (const Derived& d : element.derived())
-    if (d.name == name) return d.value;
-  ADD_FAILURE() << "nothing derived of the name " << name;
-  return 0;
-}
-
 TEST(Cam, WhatTheListingTells) {
   CamData data;
   data.laws = {"CYCLOIDAL"};
@@ -355,9 +348,7 @@ TEST(Cam, AGrooveKeepsItsBranch) {
   const NodeMap nodes = {{1, Vec3::Zero()}, {2, {0.1, -0.05, 0}}};
   const auto cam = build(cam_type(), data, nodes);
   StateBuffer state(*cam, nodes);
-  std::vector<double> history = state.history;
-  cam->commit(state.view(), {}, history);
-  state.history = history;
+  state.commit(*cam);
   state.nodes[1].x = {0.13, 0.02, 0};
   EXPECT_NEAR(channel_of(*cam, state, "GAP"), -0.07, 1e-9);
 }

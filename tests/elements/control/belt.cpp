@@ -91,6 +91,20 @@ TEST(Belt, Extremes) {
     }
 }
 
+BeltData elastic(double preload = 0, std::optional<double> friction = {}) {
+  BeltData data;
+  data.stiffness = 1000;
+  data.preload = preload;
+  data.friction = friction;
+  return data;
+}
+
+BeltData rigid(double preload) {
+  BeltData data;
+  data.preload = preload;
+  return data;
+}
+
 /// Pulleys of 0.2 and 0.4 at a distance of 1 in the plane x, y.
 struct Plane {
   explicit Plane(BeltData data) : element(make(std::move(data))), state(*element, nodes()) {}
@@ -102,6 +116,10 @@ struct Plane {
     return build(belt_type(), data, nodes());
   }
   double channel(const std::string& name) const { return channel_of(*element, state, name); }
+  void commit(double time) {
+    state.time = time;
+    state.commit(*element);
+  }
   void put(double angle_1, double angle_2, double distance = 1) {
     state.turn(0, rotation_exp(Vec3(0, 0, angle_1)), Vec3::Zero());
     state.turn(1, rotation_exp(Vec3(0, 0, angle_2)), Vec3::Zero());
@@ -114,10 +132,8 @@ struct Plane {
 
 TEST(Belt, TensionsOfTurnedPulleys) {
   for (const bool crossed : {false, true}) {
-    BeltData data;
+    BeltData data = elastic(100);
     data.crossed = crossed;
-    data.stiffness = 1000;
-    data.preload = 100;
     Plane plane(data);
     const double side = crossed ? -1 : 1;
     plane.put(0.3, 0.1);
@@ -142,9 +158,7 @@ TEST(Belt, TensionsOfTurnedPulleys) {
 /// The belt's length L(d) = 2 sqrt(d² − (R − r)²) + π (R + r) + 2 (R − r) asin((R − r)/d) (Shigley) stretches both spans by half
 /// its change.
 TEST(Belt, CentreDistanceStretchesTheBelt) {
-  BeltData data;
-  data.stiffness = 1000;
-  Plane plane(data);
+  Plane plane(elastic());
   const auto length = [](double d) {
     return 2 * std::sqrt(d * d - 0.04) + std::numbers::pi * 0.6 + 2 * 0.2 * std::asin(0.2 / d);
   };
@@ -154,19 +168,12 @@ TEST(Belt, CentreDistanceStretchesTheBelt) {
   plane.put(0, 0, 0.95);
   EXPECT_EQ(plane.channel("TENSION_1"), 0) << "slack";
   EXPECT_EQ(plane.channel("BEARING_FORCE"), 0);
-  const auto derived = [&](const std::string& name) {
-    for (const Derived& d : plane.element->derived())
-      if (d.name == name) return d.value;
-    return 0.0;
-  };
-  EXPECT_NEAR(derived("belt length"), length(1), 1e-14);
-  EXPECT_NEAR(derived("ratio of speeds"), 0.5, 1e-15);
+  EXPECT_NEAR(derived_of(*plane.element, "belt length"), length(1), 1e-14);
+  EXPECT_NEAR(derived_of(*plane.element, "ratio of speeds"), 0.5, 1e-15);
 }
 
 TEST(Belt, SlackSpanDoesNotPushAndItsDamperLetsGo) {
-  BeltData data;
-  data.stiffness = 1000;
-  data.preload = 10;
+  BeltData data = elastic(10);
   data.damping = 50;
   Plane plane(data);
   plane.put(0.3, 0);
@@ -177,38 +184,24 @@ TEST(Belt, SlackSpanDoesNotPushAndItsDamperLetsGo) {
   EXPECT_EQ(plane.channel("TENSION_1"), 0) << "no push from the damper either";
 }
 
+/// Pull p at which the belt of Plane slips: (preload + p)/(preload − p) = exp(μ wrap) of the smaller pulley (Eytelwein).
+double most_pull(double preload, double friction) {
+  const double wrap = std::numbers::pi + 2 * std::asin(-0.2), ratio = std::exp(friction * wrap);
+  return preload * (ratio - 1) / (ratio + 1);
+}
+
 TEST(Belt, GripByEytelwein) {
-  BeltData data;
-  data.stiffness = 1000;
-  data.preload = 100;
-  data.friction = 0.3;
-  Plane plane(data);
-  const double wrap = std::numbers::pi + 2 * std::asin(-0.2), ratio = std::exp(0.3 * wrap);
-  // slipping when T1/T2 = exp(mu wrap): pull p with (100 + p)/(100 - p) = ratio
-  const double pull = 100 * (ratio - 1) / (ratio + 1);
-  plane.put(pull / 1000 / 0.2, 0);
+  Plane plane(elastic(100, 0.3));
+  plane.put(most_pull(100, 0.3) / 1000 / 0.2, 0);
   EXPECT_NEAR(plane.channel("GRIP_USED"), 1, 1e-12);
 }
 
-/// Commits the state at a time, as at the end of a step.
-void commit(Plane& plane, double time) {
-  std::vector<double> history = plane.state.history;
-  State state = plane.state.view();
-  state.time = time;
-  plane.element->commit(state, {}, history);
-  plane.state.history = history;
-}
-
 TEST(Belt, RemarksOnMoreThanFrictionHolds) {
-  BeltData data;
-  data.stiffness = 1000;
-  data.preload = 100;
-  data.friction = 0.3;
-  Plane plane(data);
-  const double ratio = std::exp(0.3 * (std::numbers::pi + 2 * std::asin(-0.2))), most = 100 * (ratio - 1) / (ratio + 1);
+  Plane plane(elastic(100, 0.3));
+  const double most = most_pull(100, 0.3);
   const auto pulled = [&](double part, double time) {
     plane.put(part * most / 1000 / 0.2, 0);
-    commit(plane, time);
+    plane.commit(time);
     return plane.element->remarks(plane.state.history);
   };
   EXPECT_TRUE(pulled(0.99, 0.1).empty());
@@ -224,11 +217,9 @@ TEST(Belt, RemarksOnMoreThanFrictionHolds) {
 
 TEST(Belt, RemarksOnARigidBeltThatPushes) {
   for (const double preload : {40.0, 0.0}) {
-    BeltData data;
-    data.preload = preload;
-    Plane plane(data);
+    Plane plane(rigid(preload));
     plane.state.multipliers[0] = -100;
-    commit(plane, 0.7);
+    plane.commit(0.7);
     const auto remarks = plane.element->remarks(plane.state.history);
     ASSERT_EQ(remarks.size(), preload > 0 ? 1U : 0U) << "without preload it is a ratio, not a belt";
     if (preload > 0) {
@@ -249,18 +240,14 @@ TEST(Belt, RigidRatioOverManyTurnsAndRoundTheFirstPulley) {
       plane.state.turn(0, rotation_exp(Vec3(0, 0, line + turn)), Vec3::Zero());
       plane.state.turn(1, rotation_exp(Vec3(0, 0, line + side * turn / 2)), Vec3::Zero());
       plane.state.nodes[1].x = {std::cos(line), std::sin(line), 0};
-      std::vector<double> history = plane.state.history;
-      plane.element->commit(plane.state.view(), {}, history);
-      plane.state.history = history;
+      plane.state.commit(*plane.element);
     }
     EXPECT_NEAR(-residual_of(*plane.element, plane.state).back(), 0, 2e-9) << "constraint after 4300 turns";
   }
 }
 
 TEST(Belt, RigidTensions) {
-  BeltData data;
-  data.preload = 40;
-  Plane plane(data);
+  Plane plane(rigid(40));
   plane.state.multipliers[0] = -30;
   EXPECT_NEAR(plane.channel("TENSION_1"), 55, 1e-13);
   EXPECT_NEAR(plane.channel("TENSION_2"), 25, 1e-13);

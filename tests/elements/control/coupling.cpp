@@ -75,11 +75,7 @@ TEST(Coupling, ManyTurnsAndVirtualWork) {
   for (int k = 0; k <= 20000; ++k) {
     state.turn(1, rotation_exp(Vec3(0, 0, k * step)), Vec3::Zero());
     state.turn(2, rotation_exp(Vec3(0, 0, offset - 3 * k * step)), Vec3::Zero());
-    if (k < 20000) {
-      std::vector<double> history = state.history;
-      element->commit(state.view(), {}, history);
-      state.history = history;
-    }
+    if (k < 20000) state.commit(*element);
   }
   EXPECT_NEAR(channel_of(*element, state, "COORDINATE_1"), 14000, 1e-9);
   EXPECT_NEAR(channel_of(*element, state, "DIFFERENCE"), 0, 1e-9);

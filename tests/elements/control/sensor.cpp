@@ -76,9 +76,7 @@ TEST(Sensor, CountsTurnsOfEitherNode) {
   StateBuffer state(*element, places);
   for (int third = 1; third <= 300000; ++third) {
     state.turn(0, rotation_exp(Vec3(0, 0, -2 * std::numbers::pi * (third % 3) / 3)), Vec3::Zero());
-    std::vector<double> history = state.history;
-    element->commit(state.view(), {}, history);
-    state.history = history;
+    state.commit(*element);
   }
   EXPECT_NEAR(channel_of(*element, state, "ANGLE") / (2 * std::numbers::pi), 100000, 1e-10);
 }

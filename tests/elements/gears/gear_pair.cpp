@@ -112,10 +112,7 @@ TEST(GearPair, CommitCountsTurns) {
   for (int i = 0; i < 200000; ++i) {
     state.scalars[0] += step;
     state.scalars[1] -= ratio * step;
-    std::vector<double> scalars = state.scalars, history = state.history;
-    element->commit(state.view(), scalars, history);
-    state.scalars = scalars;
-    state.history = history;
+    state.commit(*element);
     ASSERT_LE(std::abs(state.scalars[0]), std::numbers::pi * (1 + 1e-12));
   }
   EXPECT_EQ(state.history[0], 60000);

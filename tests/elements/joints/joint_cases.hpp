@@ -92,11 +92,7 @@ struct JointAtOrigin {
     return phi;
   }
   double channel(const std::string& name) const { return channel_of(*joint, state, name); }
-  void accept() {
-    std::vector<double> history = state.history;
-    joint->commit(state.view(), {}, history);
-    state.history = history;
-  }
+  void accept() { state.commit(*joint); }
 
   NodeMap nodes = {{0, Vec3::Zero()}, {1, Vec3::Zero()}};
   std::unique_ptr<Element> joint;

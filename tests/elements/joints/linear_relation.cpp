@@ -70,9 +70,7 @@ TEST(LinearRelation, CountsTurns) {
   for (int k = 0; k <= 9000; ++k) {
     state.turn(0, rotation_exp(Vec3(0, 0, 2.2 * k)), Vec3::Zero());
     state.turn(1, rotation_exp(Vec3(0, 0, -1.1 * k)), Vec3::Zero());
-    std::vector<double> history = state.history;
-    element->commit(state.view(), {}, history);
-    state.history = history;
+    state.commit(*element);
   }
   EXPECT_NEAR(channel_of(*element, state, "VALUE"), 0, 1e-10) << "after 3000 turns";
 }

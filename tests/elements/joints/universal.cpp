@@ -51,26 +51,41 @@ TEST(Universal, PinsOneAfterTheOther) {
   EXPECT_NEAR(joint.channel("ANGLE_2"), beta, 1e-14);
 }
 
+/// Shafts along x and, bent by β about y, along (cos β, 0, −sin β); A's pin is z, B's y.
+struct Shafts {
+  explicit Shafts(double beta)
+      : second(std::cos(beta), 0, -std::sin(beta)), joint(build(universal_type(), data(), nodes())), state(*joint, nodes()) {}
+  static NodeMap nodes() { return {{0, Vec3::Zero()}, {1, Vec3::Zero()}, {2, Vec3::Zero()}}; }
+  static JointData data() {
+    JointData data;
+    data.axis = {0, 0, 1};
+    data.second = {{0, 1, 0}};
+    data.nodes = {1, 2};
+    data.at = {{0, 0, 0}};
+    return data;
+  }
+  void turn(double theta_1, double theta_2) {
+    state.turn(0, rotation_exp({theta_1, 0, 0}), Vec3::Zero());
+    state.turn(1, rotation_exp(theta_2 * second), Vec3::Zero());
+  }
+  double gap() const { return residual_of(*joint, state).back(); }
+
+  Vec3 second;  ///< direction of B's shaft
+  std::unique_ptr<Element> joint;
+  StateBuffer state;
+};
+
 TEST(Universal, PinsThroughManyTurns) {
   // shaft A turns a thousand times while B, bent from it by 45 degrees, follows: the pins swing and nothing is lost
-  JointData data;
-  data.axis = {0, 0, 1};
-  data.second = {{0, 1, 0}};
-  data.nodes = {1, 2};
-  data.at = {{0, 0, 0}};
-  const NodeMap nodes = {{0, Vec3::Zero()}, {1, Vec3::Zero()}, {2, Vec3::Zero()}};
-  const auto joint = build(universal_type(), data, nodes);
-  StateBuffer state(*joint, nodes);
   const double beta = std::numbers::pi / 4;
-  const Vec3 shaft(std::cos(beta), 0, -std::sin(beta));
+  Shafts shafts(beta);
   for (int i = 0; i <= 12000; ++i) {
     const double theta = std::numbers::pi / 6 * i;
-    state.turn(0, rotation_exp({theta, 0, 0}), Vec3::Zero());
-    state.turn(1, rotation_exp(std::atan2(std::sin(theta), std::cos(theta) * std::cos(beta)) * shaft), Vec3::Zero());
-    ASSERT_NEAR(residual_of(*joint, state).back(), 0, 1e-11) << i;
-    joint->commit(state.view(), {}, state.history);
-    ASSERT_LE(std::abs(channel_of(*joint, state, "ANGLE_1")), beta + 1e-9) << i;
-    ASSERT_LE(std::abs(channel_of(*joint, state, "ANGLE_2")), 2 * beta + 1e-9) << i;  // from where it starts, bent
+    shafts.turn(theta, std::atan2(std::sin(theta), std::cos(theta) * std::cos(beta)));
+    ASSERT_NEAR(shafts.gap(), 0, 1e-11) << i;
+    shafts.state.commit(*shafts.joint);
+    ASSERT_LE(std::abs(channel_of(*shafts.joint, shafts.state, "ANGLE_1")), beta + 1e-9) << i;
+    ASSERT_LE(std::abs(channel_of(*shafts.joint, shafts.state, "ANGLE_2")), 2 * beta + 1e-9) << i;  // from where it starts, bent
   }
 }
 
@@ -95,21 +110,12 @@ TEST(Universal, FrictionOfThePins) {
 }
 
 TEST(Universal, SpeedsOfBentShafts) {
-  // Shafts along x and, bent by β about y, along (cos β, 0, −sin β); A's pin is z, B's y: tan θ2 = tan θ1 / cos β
+  // tan θ2 = tan θ1 / cos β
   const double beta = 0.6;
-  JointData data;
-  data.axis = {0, 0, 1};
-  data.second = {{0, 1, 0}};
-  data.nodes = {1, 2};
-  data.at = {{0, 0, 0}};
-  const NodeMap nodes = {{0, Vec3::Zero()}, {1, Vec3::Zero()}, {2, Vec3::Zero()}};
-  const auto joint = build(universal_type(), data, nodes);
-  StateBuffer state(*joint, nodes);
-  const Vec3 shaft(std::cos(beta), 0, -std::sin(beta));
+  Shafts shafts(beta);
   for (double theta = -1.5; theta < 1.5; theta += 0.25) {
-    state.turn(0, rotation_exp({theta, 0, 0}), Vec3::Zero());
-    state.turn(1, rotation_exp(std::atan(std::tan(theta) / std::cos(beta)) * shaft), Vec3::Zero());
-    EXPECT_NEAR(residual_of(*joint, state).back(), 0, 1e-15) << theta;
+    shafts.turn(theta, std::atan(std::tan(theta) / std::cos(beta)));
+    EXPECT_NEAR(shafts.gap(), 0, 1e-15) << theta;
   }
 }
 

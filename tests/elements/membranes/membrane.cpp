@@ -18,6 +18,7 @@ std::vector<deck::Record> materials() {
   card.young = {50};
   card.poisson = {0.3};
   card.density = 2;
+  card.expansion = {0.01};
   records[0].id = 1;
   records[0].data = card;
   card.behaviour = "NEO-HOOKEAN";
@@ -43,7 +44,7 @@ NodeMap skin(int nodes) {
   return map;
 }
 
-Subject subject(int nodes, const std::function<void(MembraneData&)>& fill = {}) {
+Subject subject(int nodes, const std::function<void(MembraneData&)>& fill = {}, const Temperatures* temperatures = nullptr) {
   Subject s;
   s.name = std::to_string(nodes) + " nodes";
   s.nodes = skin(nodes);
@@ -55,7 +56,7 @@ Subject subject(int nodes, const std::function<void(MembraneData&)>& fill = {}) 
     data.material = 1;
     data.thickness = 0.2;
     if (fill) fill(data);
-    return build(membrane_type(), data, turned(skin(nodes), Q), {.records = &records});
+    return build(membrane_type(), data, turned(skin(nodes), Q), {.records = &records, .temperatures = temperatures});
   };
   s.skip[Check::equilibrium] = "it has weight";
   return s;
@@ -83,6 +84,20 @@ TEST(Membrane, Suite) {
     s.skip[Check::lagrange] = "a pressure that follows has no potential";
     run_suite(s);
   }
+}
+
+/// With temperatures that differ from node to node and change with time.
+TEST(Membrane, Warm) {
+  static const Wave wave(0.3, 0.7, 1.9, 0.4);
+  static const Temperatures temperatures = {{1, {9, &wave}}, {2, {14, &wave}}, {4, {5, nullptr}}, {5, {-3, nullptr}}};
+  for (const int nodes : {3, 6, 4, 8})
+    for (const int material : {1, 2}) {
+      Subject s = subject(
+          nodes, [material](MembraneData& d) { d.material = material; }, &temperatures);
+      s.name += ", warm";
+      s.skip[Check::zero] = s.skip[Check::rigid] = "warmth has forces at rest";
+      run_suite(s);
+    }
 }
 
 /// A state in which every node has moved by the same matrix: the stress is one everywhere, and the forces are its own.

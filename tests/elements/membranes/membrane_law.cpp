@@ -56,6 +56,57 @@ TEST(MembraneLaw, DerivesFromItsEnergy) {
       }
 }
 
+/// The energy of a warm skin gives its stress, moduli and the power of heating; a skin that is as much larger has the stress of
+/// a cold one.
+TEST(MembraneLaw, GrowsWithTemperature) {
+  for (const bool rubber : {false, true})
+    for (const double tension : {0.0, 4.0})
+      for (const double growth : {-0.2, 0.1, 0.5})
+        for (const Case& c : cases) {
+          const MembraneLaw skin = law(rubber, tension, 0.01);
+          const double stretch = 1 + growth, free = rubber ? growth * (2 + growth) / 2 : growth;
+          const Plane elastic = strain(c.larger, c.smaller, 0.7);
+          const Plane e = (rubber ? stretch * stretch : 1) * elastic + free * Plane(1, 1, 0);
+          const SkinResponse r = respond(skin, e, growth);
+          EXPECT_EQ(r.state, c.state) << rubber << tension << c.larger;
+          const double step = 2e-4;
+          const auto slope = [step](const auto& at) {  // of order 6
+            return (45 * (at(step) - at(-step)) - 9 * (at(2 * step) - at(-2 * step)) + (at(3 * step) - at(-3 * step))) /
+                   (60 * step);
+          };
+          EXPECT_NEAR(slope([&](double by) { return respond(skin, e, growth + by).energy; }), r.by_growth, 1e-7 * young);
+          const auto tauter = [&](double by) { return respond(law(rubber, tension + by, 0.01), e, growth).energy; };
+          EXPECT_NEAR(slope(tauter), r.by_tension, 1e-8);
+          for (Eigen::Index i = 0; i < 3; ++i) {
+            const auto at = [&](double by) { return respond(skin, Plane(e + by * Plane::Unit(i)), growth); };
+            EXPECT_NEAR(slope([&](double by) { return at(by).energy; }), r.stress[i], 1e-7 * young);
+            for (Eigen::Index j = 0; j < 3; ++j)
+              EXPECT_NEAR(slope([&](double by) { return at(by).stress[j]; }), r.moduli(j, i), 2e-6 * young);
+          }
+          const SkinResponse cold = respond(law(rubber, rubber ? tension / stretch : tension, 0.01), elastic);
+          EXPECT_LT((r.stress - (rubber ? stretch : 1) * cold.stress).norm(), 1e-13 * young);
+          if (!rubber) continue;
+          EXPECT_NEAR(r.thinning * r.area, cold.thinning * cold.area * stretch * stretch * stretch, 1e-13);
+        }
+}
+
+/// A free skin grows by α ΔT in all directions without stress; one that cannot has E α ΔT/(1 − ν).
+TEST(MembraneLaw, FreeAndHeld) {
+  const double growth = 0.02;
+  MembraneLaw skin;
+  for (const bool rubber : {true, false}) {
+    skin = law(rubber, 0, 0);
+    skin.wrinkling.reset();
+    const double free = rubber ? growth * (2 + growth) / 2 : growth;
+    const SkinResponse grown = respond(skin, free * Plane(1, 1, 0), growth);
+    EXPECT_LT(grown.stress.norm(), 1e-15 * young);
+    EXPECT_NEAR(grown.thinning, std::sqrt(1 + 2 * free), 1e-15);
+    EXPECT_NEAR(grown.area, 1 + 2 * free, 1e-15);
+  }
+  const SkinResponse held = respond(skin, Plane::Zero(), growth);
+  EXPECT_LT((held.stress + young * growth / (1 - poisson) * Plane(1, 1, 0)).norm(), 1e-15 * young);
+}
+
 /// Energy, stress, thickness and area go over from state to state without a jump.
 TEST(MembraneLaw, StatesMeet) {
   for (const bool rubber : {false, true})

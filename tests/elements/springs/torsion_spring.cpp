@@ -90,9 +90,7 @@ TEST(TorsionSpring, WindsUpThroughManyTurns) {
     EXPECT_NEAR(channel_of(*spring, state, "ANGLE"), angle, 1e-12);
     EXPECT_NEAR(channel_of(*spring, state, "TORQUE"), -10 * (angle - relaxed), 1e-11);
     EXPECT_NEAR(spring->energies(state.view()).potential, 5 * (angle - relaxed) * (angle - relaxed), 1e-9);
-    std::vector<double> history(2);
-    spring->commit(state.view(), {}, history);
-    state.history = history;
+    state.commit(*spring);
   }
 }
 

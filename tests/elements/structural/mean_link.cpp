@@ -5,6 +5,9 @@
 
 #include <Eigen/SVD>
 #include <array>
+#include <sstream>
+#include <string>
+#include <tuple>
 
 #include "elements/structural/deck_model.hpp"
 #include "math/rotation.hpp"
@@ -78,6 +81,29 @@ TEST(MeanLink, MeasuresMeanDisplacementAndRotation) {
   const auto phi = constraints(deck.model, moved, Mat3::Identity());
   EXPECT_LT((phi.head<3>() - shift).norm(), 1e-15);
   EXPECT_LT((phi.tail<3>() - turn).norm(), 1e-9 * turn.norm());
+}
+
+TEST(MeanLink, WeightsMayBeNegativeOrZero) {
+  // the consistent weights of faces of second order, over (0, 2) x (0, 2) and half of it: corners, then the nodes between
+  const std::string face = "0 0  2 0  2 2  0 2  1 0  2 1  1 2  0 1", half = "0 0  2 0  0 2  1 0  1 1  0 1";
+  for (const auto& [places, weights, centre] :
+       {std::tuple(face, "-1 -1 -1 -1 4 4 4 4", Vec3(1, 1, 0)), std::tuple(half, "0 0 0 1 1 1", Vec3(2.0 / 3, 2.0 / 3, 0))}) {
+    std::string nodes = ".NOE\n I 1 X 0 Y 0 Z 1\n", members;
+    NodeMap moved{{1, Vec3(0, 0, 1)}};
+    const Vec3 turn(1e-6, -2e-6, 3e-6), shift(0.3, -0.1, 0.2);
+    std::istringstream stream(places);
+    double x = 0, y = 0;
+    for (int id = 2; stream >> x >> y; ++id) {
+      nodes += " I " + std::to_string(id) + " X " + std::to_string(x) + " Y " + std::to_string(y) + "\n";
+      members += " " + std::to_string(id);
+      moved[id] = Vec3(x, y, 0) + shift + turn.cross(Vec3(x, y, 0) - centre);
+    }
+    const DeckModel deck(nodes + ".MCE\n I 7 MEAN_LINK N 1 MEMBERS" + members + " W " + weights +
+                         "\n I 8 SPHERICAL N 0 1 AT 0 0 1\n.SAM TYPE STATIC\n.SUB TF 1 H 1\n");
+    const auto phi = constraints(deck.model, moved, Mat3::Identity());
+    EXPECT_LT((phi.head<3>() - shift).norm(), 1e-14) << weights;
+    EXPECT_LT((phi.tail<3>() - turn).norm(), 1e-8 * turn.norm()) << weights;
+  }
 }
 
 TEST(MeanLink, RotationIsThatOfTheBestFit) {

@@ -3,13 +3,16 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "elements/structural/make_cell.hpp"
 #include "elements/suite.hpp"
+#include "math/rotation.hpp"
 
 namespace engrane::elements::structural::plane_cells {
 
@@ -25,24 +28,39 @@ struct Kind {
   bool linear = false, rubber = false, lumped = false;
   double damping = 0;
   bool warm = false;
+  bool curved = false;  ///< an anisotropic material with round_axes()
 };
 inline constexpr double expansion = 2e-3;
+
+/// Axes of a cylindrical frame, about an axis along z beside the cells.
+inline Mat3 round_axes(const Vec3& place) { return rotation_exp(std::atan2(place[1] + 0.7, place[0] - 0.2) * Vec3::UnitZ()); }
+inline materials::Elastic orthotropic() {
+  materials::Elastic material = materials::orthotropic({Vec3(140, 60, 50), Vec3(0.2, 0.25, 0.15), Vec3(30, 25, 28)});
+  material.density = density;
+  return material;
+}
 
 inline std::string name_of(std::size_t count, Hypothesis hypothesis, Kind kind) {
   return std::to_string(count) + " nodes, hypothesis " + std::to_string(static_cast<int>(hypothesis)) +
          (kind.linear ? ", small" : ", large") + (kind.rubber ? ", neo-Hookean" : "") + (kind.lumped ? ", lumped" : "") +
-         (kind.damping > 0 ? ", damped" : "") + (kind.warm ? ", warm" : "");
+         (kind.damping > 0 ? ", damped" : "") + (kind.warm ? ", warm" : "") + (kind.curved ? ", curved axes" : "");
 }
 
 inline std::shared_ptr<const CellSection> section(Hypothesis hypothesis, Kind kind) {
-  materials::Elastic material = materials::isotropic(young, poisson);
+  materials::Elastic material = kind.curved ? orthotropic() : materials::isotropic(young, poisson);
   material.density = density;
   material.damping = kind.damping;
-  if (kind.warm) material.expansion.head<3>().setConstant(expansion);
+  if (kind.warm) material.expansion.head<3>() = expansion * Vec3(1, kind.curved ? 0.3 : 1, kind.curved ? 0.6 : 1);
   if (kind.rubber) material.neo_hookean = materials::neo_hookean(young, poisson);
-  return std::make_shared<CellSection>(CellSection{hypothesis, materials::law_of(hypothesis, material),
-                                                   hypothesis == Hypothesis::axisymmetric ? 1 : thickness, kind.linear, 0,
-                                                   kind.lumped});
+  return std::make_shared<CellSection>(
+      CellSection{hypothesis,
+                  materials::law_of(hypothesis, material),
+                  hypothesis == Hypothesis::axisymmetric ? 1 : thickness,
+                  kind.linear,
+                  0,
+                  kind.lumped,
+                  {},
+                  kind.curved ? std::optional(CurvedLaw{hypothesis, material, round_axes}) : std::nullopt});
 }
 inline std::shared_ptr<const CellSection> section(Hypothesis hypothesis, bool linear) {
   return section(hypothesis, Kind{linear});

@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <fstream>
 #include <limits>
+#include <numbers>
 #include <sstream>
 
 #include "output/peaks.hpp"
@@ -71,14 +75,15 @@ TEST(Listing, PeaksGoOnAfterARestart) {
       {"element/HINGE", "HINGE", {3, 4}, {{"ANGLE", dimension::angle, ""}, {"FORCE_1", dimension::force, ""}}},
       {"node/NODE", "", {7}, {{"UX", dimension::length, ""}}},
       {"run", "", {}, {{"ENERGY_ERROR", dimension::energy, ""}}}};
-  Peaks first(6), second(6), other(5);
-  first.observe(0, std::vector<double>{-3, 0, 0.5, 1, 9, 0});
-  first.observe(1, std::vector<double>{2, 0, -0.75, 1, 9, 0});
+  const std::vector<HistoryTable> fewer(tables.begin(), tables.begin() + 2);
+  Peaks first(tables), second(tables), other(fewer);
+  first.observe(0, std::vector<double>{-3, 0, 0.5, 1, 9, 0}, false);
+  first.observe(1, std::vector<double>{2, 0, -0.75, 1, 9, 0}, false);
   Snapshot snapshot;
   first.save(snapshot);
   EXPECT_TRUE(second.load(snapshot));
   EXPECT_FALSE(other.load(snapshot));
-  second.observe(2, std::vector<double>{2.5, 0, 0.25, -4, 9, 0});
+  second.observe(2, std::vector<double>{2.5, 0, 0.25, -4, 9, 0}, false);
   EXPECT_EQ(second.of(0).value, -3);
   EXPECT_EQ(second.of(0).time, 0);
   EXPECT_EQ(second.of(2).value, -0.75);
@@ -93,6 +98,44 @@ TEST(Listing, PeaksGoOnAfterARestart) {
             "  HINGE 4  ANGLE    -0.75  rad         1\n"
             "           FORCE_1     -4  N           2\n");
   EXPECT_TRUE(contains(listing_peaks(tables, second, si, 1), "and 2 more"));
+}
+
+/// Peaks of a channel with these values at 0, 1, 2, …; before sample `event` there is an event, or at it if it `is_seen`.
+Peaks::Peak peak_of(const std::vector<double>& values, std::size_t event = 0, bool is_seen = false,
+                    Channel::Course course = Channel::Course::smooth, bool restarts = false) {
+  std::vector<HistoryTable> tables = {{"run", "", {}, {}}};
+  tables[0].channels.push_back({{"X", dimension::force, ""}, course, -10, 10});
+  Peaks peaks(tables);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (event > 0 && i == event && !is_seen) peaks.interrupt();
+    peaks.observe(static_cast<double>(i), std::array{values[i]}, is_seen && i == event);
+    if (!restarts) continue;
+    Snapshot snapshot;
+    peaks.save(snapshot);
+    peaks = Peaks(tables);
+    EXPECT_TRUE(peaks.load(snapshot));
+  }
+  return peaks.of(0);
+}
+
+TEST(Listing, PeaksBetweenSamples) {
+  std::vector<double> sine;
+  for (int i = 0; i < 12; ++i) sine.push_back(-5 * std::sin(0.35 * i));
+  const double top = std::numbers::pi / 0.7;  // 4.49: the samples reach 4.93
+  for (const bool restarts : {false, true}) {
+    const Peaks::Peak peak = peak_of(sine, 0, false, Channel::Course::smooth, restarts);
+    EXPECT_NEAR(peak.value, -5, 0.002);
+    EXPECT_NEAR(peak.time, top, 0.02);
+  }
+  const double least = std::min(sine[4], sine[5]);
+  EXPECT_EQ(peak_of(sine, 5).value, least);             // an event between both samples, at one that is not seen
+  EXPECT_NEAR(peak_of(sine, 5, true).value, -5, 0.01);  // at the later one
+  EXPECT_EQ(peak_of({0, 1, 2, 3, 1, -1}, 3, true).value, 3);
+  EXPECT_EQ(peak_of(sine, 0, false, Channel::Course::state).value, least);
+  // neither at jumps, nor beyond limits
+  EXPECT_EQ(peak_of({0, 0, 0, 3, 3, 3, 3}).value, 3);
+  EXPECT_EQ(peak_of({0, 0, 0, 3, 3, 3, 3}).time, 3);
+  EXPECT_EQ(peak_of({1, 7, 9.9, 9.9, 7, 1}).value, 10);
 }
 
 TEST(Listing, FileKeepsOutOfTheWayOfACompleteResult) {
