@@ -74,15 +74,15 @@ StaticWork static_work(Assembler& assembler, Reactions& supports, Configuration 
   // saves a copy: configurations of large meshes take much memory
   Configuration& c = from;
   const Fillings fillings(assembler);
-  const Fillings::At filled = fillings.at(from), fills = fillings.at(to);
+  const Fillings::At before = fillings.at(from), after = fillings.at(to);
   double dissipated = 0, given = 0;
   const auto works_of_elements = [&] {
     std::vector<double> works;
     works.reserve(assembler.own_parts().size());
     for (const int p : assembler.own_parts()) {
-      const Energies rates = assembler.model().part(p).element->energies(assembler.view(p, c));
-      const auto* gas = dynamic_cast<const Filled*>(assembler.model().part(p).element.get());
-      works.push_back(gas ? 0.0 : time * rates.external);
+      const Element& element = *assembler.model().part(p).element;
+      const Energies rates = element.energies(assembler.view(p, c));
+      works.push_back(filled(element) != nullptr ? 0.0 : time * rates.external);
       dissipated += std::abs(rates.dissipated);
       given += std::max(-rates.dissipated, 0.0);
     }
@@ -124,7 +124,7 @@ StaticWork static_work(Assembler& assembler, Reactions& supports, Configuration 
   c.multipliers = to.multipliers;
   c.history = to.history;
   work.add(first_of_elements, works_of_elements());
-  work.add(fillings.works(filled, fills, filled), fillings.works(filled, fills, fills));
+  work.add(fillings.works(before, after, before), fillings.works(before, after, after));
   double sums[6] = {work.first, work.second, work.varied, work.handled, dissipated, given};
   MPI_Allreduce(MPI_IN_PLACE, sums, 6, MPI_DOUBLE, MPI_SUM, assembler.comm());
   work = {sums[0], sums[1], sums[2], sums[3], sums[4] > 0, sums[5] > 0};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "assembly/assembler.hpp"
@@ -8,12 +9,9 @@
 
 namespace engrane {
 
-/// What fills the elements of this rank, and its work. With the content N, the volume V and the work L(N₀, N₁, V) of filling at
-/// constant volume, the pressure being N/V, integration by parts gives the work between two instants as
+/// What fills the elements of this rank, and its work: with g and L, the work at constant size, of each element
 ///
-///     L(N₀, N₁, V₁) + ∫ (N − N₀) V̇/V dt,
-///
-/// whose integrand is continuous at corners of the content.
+///     L(q₀, q₁, s₁) + ∫ (g(q, s) − g(q, s₁)) dq.
 class Fillings {
  public:
   using At = std::vector<Filled::Filling>;  ///< of the elements of this rank
@@ -21,14 +19,12 @@ class Fillings {
   explicit Fillings(Assembler& assembler);
   bool any() const { return !parts_.empty(); }
   At at(const Configuration& c) const;
-  /// L, element by element, with a volume of `volumes`.
-  std::vector<double> works(const At& from, const At& to, const At& volumes) const;
-  /// Sum of L with the geometric mean of the volumes at both ends: the integral is then of the third order of the step.
+  /// L, element by element, with the sizes of `sizes`.
+  std::vector<double> works(const At& from, const At& to, const At& sizes) const;
+  /// Sum of the work between two instants; its error is of the third order of the step.
   double work(const At& from, const At& to) const;
-  /// Sum of L with the volumes of `to`.
-  double work_at_end(const At& from, const At& to) const;
-  /// Sum of the integrands at `at`, if the interval begins at `begin`.
-  static double integrand(const At& begin, const At& at);
+  /// Sum of the work from the first of the points of Lobatto quadrature to the point `end`, with the weights of the powers there.
+  double work(const std::array<const At*, 4>& points, std::size_t end, const std::array<double, 4>& weights) const;
   /// Sum of the powers.
   static double power(const At& at);
 

@@ -132,11 +132,8 @@ void EnergyLedger::integrate_over_inside(const Moment& end) {
   const double step = end.time - last_time_;
   const std::array<Energies, 4> powers{Energies{.dissipated = dissipated_power_, .external = external_power_},
                                        inside_[0].energies, inside_[1].energies, end.energies};
-  // these integrands are continuous where the power of filling jumps
   const Fillings::At filled = last_fillings_;
-  std::array<double, 4> swells{};
-  for (std::size_t p = 1; p < swells.size(); ++p)
-    swells[p] = over_ranks(Fillings::integrand(filled, p <= inside_.size() ? inside_[p - 1].fillings : end.fillings));
+  const std::array<const Fillings::At*, 4> fillings{&filled, &inside_[0].fillings, &inside_[1].fillings, &end.fillings};
   for (std::size_t i = 0; i < lobatto.size(); ++i) {
     balance_.external_work = begin.external_work;
     balance_.dissipated = begin.dissipated;
@@ -146,9 +143,8 @@ void EnergyLedger::integrate_over_inside(const Moment& end) {
     }
     const Moment& moment = i < inside_.size() ? inside_[i] : end;
     if (filled_) {
-      const double work = over_ranks(fillings_.work_at_end(filled, moment.fillings));
+      const double work = over_ranks(fillings_.work(fillings, i + 1, lobatto[i]));
       balance_.external_work += work;
-      for (std::size_t p = 0; p < swells.size(); ++p) balance_.external_work += step * lobatto[i][p] * swells[p];
       if (i == inside_.size()) balance_.passed += std::abs(work);
     }
     if (smooth_) powers_.add(moment.time, std::array{moment.energies.external, moment.energies.dissipated});

@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "elements/cables/catenary.hpp"
 #include "elements/common/building.hpp"
+#include "model/filled.hpp"
 #include "model/templated_element.hpp"
 
 namespace engrane::elements::cables {
@@ -15,7 +17,7 @@ namespace {
 
 /// At each instant the shape is the static equilibrium under weight and end positions; for inertia its mass is lumped at the
 /// ends.
-class Cable final : public TemplatedElement<Cable, 2, 6> {
+class Cable final : public TemplatedElement<Cable, 2, 6>, public Filled {
  public:
   struct Data {
     std::array<int, 2> nodes;
@@ -53,11 +55,20 @@ class Cable final : public TemplatedElement<Cable, 2, 6> {
     const Catenary::Shape<double> at = cable.shape(start);
     e.potential = potential(cable, start, state);
     if (state.varying) e.external = power_of_weight(cable, data_.mass * state.varying->rate, state);
-    if (data_.reel) {
-      const double tension = at.end.norm(), rate = data_.length * data_.reel->at(state.time).d1;
-      e.external = -tension * (1 + tension / (2 * data_.stiffness)) * rate;
-    }
+    if (data_.reel) e.external = power_of_reeling(at.end.norm(), state);
     return e;
+  }
+
+  bool is_filled() const override { return data_.reel != nullptr; }
+  /// The content is the unstretched length, the size the tension. What is reeled has no weight.
+  Filling filling(const State& state) const override {
+    const Catenary cable = catenary(state);
+    const double tension = start_tension(cable, state).norm();
+    return {cable.length, tension, power_of_reeling(tension, state)};
+  }
+  double work_of_filling(double from, double to, double tension) const override { return reeling_force(tension) * (to - from); }
+  double slope_beside(const Filling& at, double tension) const override {
+    return reeling_force(at.size) - reeling_force(tension);
   }
 
   /// A weightless string starts to pull at its unstretched length; one with weight always pulls.
@@ -134,6 +145,11 @@ class Cable final : public TemplatedElement<Cable, 2, 6> {
       return potential(other, start_tension(other, state), state);
     };
     return size * (with(change) - with(-change)) / (2 * change);
+  }
+  /// Derivative of the energy by the unstretched length at constant distance of the ends.
+  double reeling_force(double tension) const { return -tension * (1 + tension / (2 * data_.stiffness)); }
+  double power_of_reeling(double tension, const State& state) const {
+    return reeling_force(tension) * data_.length * data_.reel->at(state.time).d1;
   }
   static bool hangs(const Catenary& cable) { return !cable.weight.isZero(0); }
   static Vec3 start_tension(const Catenary& cable, const State& state) {

@@ -73,9 +73,10 @@ class Gas final : public Element, public DeterminedChannels, public Filled {
   }
   Filling filling(const State& state) const override {
     const double now = volume(state);
-    return {law_.amount_at(state.time), now, state.scalar_rates[0] * area_ / now, law_.filling(now, state.time)};
+    return {law_.amount_at(state.time), now, law_.filling(now, state.time)};
   }
   double work_of_filling(double from, double to, double volume) const override { return law_.work_of_filling(from, to, volume); }
+  double slope_beside(const Filling& at, double volume) const override { return std::log(volume / at.size); }
 
   const std::vector<Channel>& channels() const override {
     static const std::vector<Channel> with_mass = {
