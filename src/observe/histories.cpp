@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "math/rotation.hpp"
+#include "observe/history_interpolation.hpp"
 
 namespace engrane::observe {
 
@@ -29,6 +30,17 @@ std::vector<int> selected_places(const Selection& selection, bool of_part, int i
       places.push_back(static_cast<int>(i));
   }
   return places;
+}
+
+/// Columns of these channels of an owner whose columns begin at `first`; empty if one of them is not kept.
+std::vector<std::size_t> kept(const Table& table, const std::vector<int>& channels, std::size_t first) {
+  std::vector<std::size_t> columns;
+  for (const int channel : channels) {
+    const auto at = std::find(table.places.begin(), table.places.end(), channel);
+    if (at == table.places.end()) return {};
+    columns.push_back(first + static_cast<std::size_t>(at - table.places.begin()));
+  }
+  return columns;
 }
 
 /// Names of single channels of a part or node.
@@ -186,13 +198,15 @@ void Histories::find_known() {
       const Element& element = *assembler_.model().part(part).element;
       const auto* known = dynamic_cast<const DeterminedChannels*>(&element);
       const std::vector<DeterminedChannels::Determined> all = known ? known->determined() : decltype(known->determined())();
+      const std::size_t first = column;
       for (const int place : tables_[t].places) {
         for (const auto& d : all)
           if (d.channel == place) {
             const Dimension of_source =
                 d.sources.empty() ? dimension::none : element.channels()[static_cast<std::size_t>(d.sources[0])].dimension;
-            known_.push_back({column, part, d, known, of_source, sources_.size()});
-            sources_.resize(sources_.size() + d.sources.size());
+            known_.push_back({column, part, d, known, of_source, sources_.size(), {}});
+            if (!of_motion(of_source)) known_.back().columns = kept(tables_[t], d.sources, first);
+            if (known_.back().columns.empty()) sources_.resize(sources_.size() + d.sources.size());
           }
         ++column;
       }
@@ -205,7 +219,7 @@ const std::vector<double>& Histories::sources(const Configuration& c) {
   if (sources_.empty() || assembler_.rank() != 0) return sources_;
   for (const Known& known : known_) {
     const std::vector<int>& channels = known.determined.sources;
-    if (channels.empty()) continue;
+    if (channels.empty() || !known.columns.empty()) continue;
     const int part = known.part;
     if (std::exchange(seen, part) != part) {
       const Element& element = *assembler_.model().part(part).element;

@@ -86,17 +86,17 @@ class Histories {
     int part;
     DeterminedChannels::Determined determined;
     const DeterminedChannels* element;
-    Dimension of_source;  ///< dimension of the first source channel, if it has any
-    std::size_t first;    ///< place of its sources in sources()
+    Dimension of_source;               ///< dimension of the first source channel, if it has any
+    std::size_t first;                 ///< place of its sources in sources()
+    std::vector<std::size_t> columns;  ///< of its sources, if all are kept and none is of_motion(): they are not in sources()
 
-    /// `sources`: of all known().
-    double at(double time, std::span<const double> sources) const {
-      return element->determine(determined.channel, time, sources.subspan(first, determined.sources.size()));
+    double at(double time, std::span<const double> own_sources) const {
+      return element->determine(determined.channel, time, own_sources);
     }
   };
   const std::vector<Known>& known() const { return known_; }
-  /// Values of the source channels of known(), one after another, on rank 0, which holds the whole configuration. They need not
-  /// be among those that are kept: a selection does not change results.
+  /// Values of the source channels of known() that are no columns, one after another, on rank 0, which holds the whole
+  /// configuration. Sources need not be kept: a selection does not change results.
   const std::vector<double>& sources(const Configuration& c);
   std::size_t source_count() const { return sources_.size(); }
   /// Number of tables of elements.

@@ -184,8 +184,11 @@ void Observer::put_known(const Configuration& c, bool steady, std::span<const do
   if (known.empty()) return;
   const std::vector<double>* moved = steady ? nullptr : &histories_.sources(c);
   for (const Histories::Known& one : known) {
-    const bool from_motion = moved && of_motion(one.of_source);
-    values_[one.column] = one.at(c.load_time(), from_motion ? std::span<const double>(*moved) : sources);
+    const std::span<const double> all = moved && of_motion(one.of_source) ? std::span<const double>(*moved) : sources;
+    std::vector<double> own;
+    for (const std::size_t column : one.columns) own.push_back(values_[column]);
+    const std::size_t count = one.determined.sources.size();
+    values_[one.column] = one.at(c.load_time(), own.empty() ? all.subspan(one.first, count) : std::span<const double>(own));
   }
 }
 

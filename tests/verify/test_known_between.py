@@ -198,3 +198,40 @@ def test_an_imposed_acceleration_that_jumps(driven: str, support: str, tmp_path:
     aside = np.abs(found.t - 0.01) > 1e-9
     expected = np.where(found.t < 0.01, 200, 0)
     assert np.abs(found["node/1/AX"] - expected)[aside].max() < 1e-5
+
+
+# a pendulum on a slider that shakes fast: the force in its hinge passes close to zero
+SHAKEN = """.NOE
+ I 1 X 0 0 0
+ I 2 X 0.02 0 0.5
+.MCE
+ I 1 PRISMATIC N 0 1 AXIS 0 0 1 DRIVE SLIDE NF 1
+ I 2 {joint} N 1 2 {axis} AT 0 0 0
+ I 3 INERTIA N 2 M 1 J 0.001
+ I 4 INERTIA N 1 M 0.1 J 0.001
+.FCT
+ I 1 EXPR "0.02*SIN(400*T)"
+.CLM
+ STRU ACC 0 0 -9.81
+{more}
+.SAM TYPE DYNAMIC SCHEME RADAU
+.SUB TF 2 H 0.01 TOL 5E-4
+.FIN
+"""
+
+
+@pytest.mark.parametrize(
+    ("joint", "axis", "size"), [("HINGE", "AXIS 0 1 0", "RADIAL_FORCE"), ("SPHERICAL", "", "FORCE_SIZE")]
+)
+def test_sizes_of_forces_are_those_of_their_components(
+    joint: str, axis: str, size: str, tmp_path: Path
+) -> None:
+    """Their squares were interpolated: close to zero the size was off by a hundredth of the largest force."""
+    deck = SHAKEN.format(joint=joint, axis=axis, more="")
+    _, whole = solve(deck, tmp_path, "whole")
+    components = np.array([whole[f"2/FORCE_{c}"] for c in "XYZ"])
+    np.testing.assert_allclose(whole[f"2/{size}"], np.linalg.norm(components, axis=0), atol=1e-3)
+    assert whole[f"2/{size}"].min() < 0.03 * whole[f"2/{size}"].max()
+    alone_deck = SHAKEN.format(joint=joint, axis=axis, more=f'.SAI CHANNEL "{size}"')
+    _, alone = solve(alone_deck, tmp_path, "alone")
+    np.testing.assert_array_equal(alone[f"2/{size}"], whole[f"2/{size}"])

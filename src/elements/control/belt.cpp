@@ -131,10 +131,11 @@ class Belt final : public TemplatedElement<Belt, 2, 13>, public DeterminedChanne
     std::fill(history.begin(), history.end(), 0.0);
     if (law_.slips) GripState::holds_at(Vec3::Zero()).write(layout(), history, 0);
   }
-  /// The tight side is the larger of the tensions.
-  std::vector<Determined> determined() const override { return {{2, {0, 1}}, {3, {0, 1}}}; }
-  double determine(int channel, double, std::span<const double> tensions) const override {
-    return channel == 2 ? std::max(tensions[0], tensions[1]) : std::min(tensions[0], tensions[1]);
+  /// The tight side is the larger of the tensions, BEARING_FORCE the size of FORCE.
+  std::vector<Determined> determined() const override { return {{2, {0, 1}}, {3, {0, 1}}, {11, {8, 9, 10}}}; }
+  double determine(int channel, double, std::span<const double> sources) const override {
+    if (channel == 11) return std::hypot(sources[0], sources[1], sources[2]);
+    return channel == 2 ? std::max(sources[0], sources[1]) : std::min(sources[0], sources[1]);
   }
   void grip_limits(const State& state, std::span<double> limits) const override {
     if (!law_.slips) return;

@@ -91,7 +91,7 @@ class Joint final : public TemplatedElement<Joint, 2, 20>, public CoordinateOwne
   void observe(const State& state, std::span<double> values) const override;
   /// Coordinates of drives, and gaps between two stops.
   std::vector<Determined> determined() const override;
-  double determine(int channel, double time, std::span<const double> coordinate) const override;
+  double determine(int channel, double time, std::span<const double> sources) const override;
   /// Standard joint types that constrain a subset of the same directions.
   std::vector<Release> releases() const override;
   /// Lengths of the arms.
@@ -145,7 +145,8 @@ class Joint final : public TemplatedElement<Joint, 2, 20>, public CoordinateOwne
   bool whole_b_ = false;                ///< those forces need B's second or third axis
   std::vector<Measure> angles_;         ///< angles whose turns are counted, in the order of the history
   std::vector<Channel> channels_;
-  std::vector<Determined> gaps_;  ///< channels of gaps between two stops, each with that of its coordinate
+  std::vector<Determined> gaps_;   ///< channels of gaps between two stops, each with that of its coordinate
+  std::vector<Determined> sizes_;  ///< channels of sizes of vectors, each with those of the components
 };
 
 }  // namespace engrane::elements::joints

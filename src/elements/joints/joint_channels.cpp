@@ -28,18 +28,29 @@ void Joint::name_channels() {
     if (parts_.has_axis)
       for (const char* c : {"_1", "_2", "_3"}) channels_.push_back({what + c, d, where + ", joint axes"});
   };
+  const auto size_of = [this](int component, int count) {
+    sizes_.push_back({static_cast<int>(channels_.size()), {}});
+    for (int c = 0; c < count; ++c) sizes_.back().sources.push_back(component + c);
+  };
+  const int force = static_cast<int>(channels_.size()), moment = force + (parts_.has_axis ? 6 : 3);
+  constexpr int across = 4;  // of the joint's axes, behind the global ones and the axis itself
   name("FORCE", dimension::force, "force of the joint on B");
   if (parts_.has_moment) name("MOMENT", dimension::moment, "moment of the joint on B at the joint point");
   if (parts_.has_axial) channels_.push_back({"AXIAL_FORCE", dimension::force, "force on B along the axis"});
   if (parts_.is_bearing) {
+    size_of(force + across, 2);
     channels_.push_back({"RADIAL_FORCE", dimension::force, "size of the force on B across the axis", Channel::Course::size});
-    if (parts_.has_moment)
+    if (parts_.has_moment) {
+      size_of(moment + across, 2);
       channels_.push_back(
           {"BENDING_MOMENT", dimension::moment, "size of the moment on B across the axis", Channel::Course::size});
+    }
   }
   if (parts_.has_thrust) channels_.push_back({"THRUST", dimension::force, "force that pushes the ends apart"});
-  if (!parts_.has_axis)
+  if (!parts_.has_axis) {
+    size_of(force, 3);
     channels_.push_back({"FORCE_SIZE", dimension::force, "size of the force of the joint on B", Channel::Course::size});
+  }
   if (parts_.has_bend) channels_.push_back({"BEND", dimension::angle, "angle between the shafts", Channel::Course::size});
   if (!parts_.normal_channel.empty())
     channels_.push_back({parts_.normal_channel, is_length(parts_.constraints[0].measure) ? dimension::force : dimension::moment,
@@ -122,16 +133,20 @@ void Joint::observe(const State& state, std::span<double> values) const {
 
 std::vector<Joint::Determined> Joint::determined() const {
   std::vector<Determined> all = gaps_;
+  all.insert(all.end(), sizes_.begin(), sizes_.end());
   for (std::size_t k = 0; k < parts_.coordinates.size(); ++k)
     if (parts_.coordinates[k].drive.given())
       for (const int i : {0, 1}) all.push_back({static_cast<int>(2 * k) + i});
   return all;
 }
 
-double Joint::determine(int channel, double time, std::span<const double> coordinate) const {
+double Joint::determine(int channel, double time, std::span<const double> sources) const {
   const auto owner = [this](int of) -> const JointCoordinate& { return parts_.coordinates[static_cast<std::size_t>(of / 2)]; };
   for (const Determined& gap : gaps_)
-    if (gap.channel == channel) return owner(gap.sources[0]).stop.gap(coordinate[0]);
+    if (gap.channel == channel) return owner(gap.sources[0]).stop.gap(sources[0]);
+  const auto is_asked = [channel](const Determined& size) { return size.channel == channel; };
+  if (std::any_of(sizes_.begin(), sizes_.end(), is_asked))
+    return Eigen::Map<const Eigen::VectorXd>(sources.data(), static_cast<Eigen::Index>(sources.size())).norm();
   const JointCoordinate& driven = owner(channel);
   return channel % 2 == 1 ? driven.drive.rate(time) : driven.drive.coordinate(time) + driven_origin(driven);
 }
