@@ -81,7 +81,7 @@ def of_file(
 ) -> CellMesh:
     """All that a deck can say of the mesh. `merge`: nodes nearer than this part of its size are one.
     `membranes`: its triangles and quadrilaterals, wherever they lie, are membranes."""
-    path, notes = mesh.path, []
+    path, notes = mesh.path, list(mesh.notes)
     points = mesh.points * scale
     one = np.arange(len(points))
     if merge is not None and len(points):

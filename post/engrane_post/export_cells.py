@@ -190,6 +190,8 @@ def _by_meshio(cells: Cells, nodes: dict[str, np.ndarray], own: dict[str, np.nda
     tables = [(k, t[:, k.mirror] if suffix == ".med" and k.dimension == 3 else t) for k, t in cells.blocks]
     # what rounding leaves of a zero has more characters than a field of Nastran
     points = np.where(np.abs(cells.points) < 1e-12 * np.abs(cells.points).max(initial=0), 0, cells.points)
+    if suffix == ".bdf":
+        points, tables = _joined(points, tables, cells.node_ids)
     mesh = meshio.Mesh(points, [(k.name, t) for k, t in tables])
     if held == "some":  # numbers, vectors and full tensors
         nodes, own = (_split(data, fields) for data in (nodes, own))
@@ -229,6 +231,16 @@ def _by_meshio(cells: Cells, nodes: dict[str, np.ndarray], own: dict[str, np.nda
         text = path.read_text(encoding="ascii")
         path.write_text(re.sub(r"(?m)^(C[A-Z]+)_", r"\1 ", text), encoding="ascii")
     return left
+
+
+def _joined(
+    points: np.ndarray, tables: list[tuple[Kind, np.ndarray]], ids: np.ndarray
+) -> tuple[np.ndarray, list[tuple[Kind, np.ndarray]]]:
+    """One node for the parts that meet there, in a file without fields, and what a long field of Nastran has
+    room for: ten digits."""
+    _, first, same = np.unique(ids, return_index=True, return_inverse=True)
+    rounded = [[float(f"{x:.10g}") for x in point] for point in points[first]]
+    return np.array(rounded), [(kind, np.ravel(same)[table]) for kind, table in tables]
 
 
 def _families(

@@ -70,6 +70,8 @@ class FileMesh:
     point_groups: dict[str, np.ndarray] = field(default_factory=dict)
     #: kinds of cells that are numbered either way round, none of which is inside out
     both_ways: tuple[str, ...] = ()
+    #: of what is in the file and not here
+    notes: list[str] = field(default_factory=list)
 
 
 def open_mesh(path: str | Path) -> Any:
@@ -201,7 +203,7 @@ def read(path: str | Path) -> FileMesh:
         blocks = [
             (n, t[:, BY_NAME[n].mirror] if dimension_of(n) == 3 and n in BY_NAME else t) for n, t in blocks
         ]
-    mesh = FileMesh(Path(path), points, blocks)
+    mesh = FileMesh(Path(path), points, blocks, notes=list(getattr(source, "notes", [])))
     if Path(path).suffix.lower() in VTK:
         # VTK's pages long drew wedges upside down, and meshio and others write them so; VTK itself computes
         # with the base that other solids have
@@ -214,7 +216,23 @@ def read(path: str | Path) -> FileMesh:
     _tagged_cells(source, mesh)
     _families(source, mesh)
     _marked(source, mesh)
+    _join(source, mesh)
     return mesh
+
+
+def _join(source: Any, mesh: FileMesh) -> None:
+    """Makes one of the nodes that `engrane export` writes for each of the parts that meet there."""
+    numbers = np.asarray(source.point_data.get("node", []), float)
+    if numbers.shape != (len(mesh.points),):
+        return
+    _, first, same = np.unique(numbers, return_index=True, return_inverse=True)
+    if len(first) == len(numbers) or (mesh.points != mesh.points[first][same]).any():
+        return
+    kept = np.sort(first)
+    new = np.searchsorted(kept, first[same])
+    mesh.points = mesh.points[kept]
+    mesh.blocks = [(name, new[nodes]) for name, nodes in mesh.blocks]
+    mesh.point_groups = {name: np.unique(new[rows]) for name, rows in mesh.point_groups.items()}
 
 
 def _check_nodes(path: str | Path, blocks: list[tuple[str, np.ndarray]], points: int) -> None:

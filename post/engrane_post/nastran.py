@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Reads the mesh of a Nastran file: GRID and the cards of cells, in small, large or free fields, with all
 ways to continue a card on the next line, and INCLUDE (MSC Nastran, Quick Reference Guide, The Bulk Data
-Section). The cells with one property are a group. Cards of cells that are not known are refused, everything
-else is passed over."""
+Section). The cells with one property are a group. Cards of cells that are not known are refused, those of
+what joins nodes are told of, and everything else is passed over."""
 
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterator
 from itertools import groupby
 from pathlib import Path
@@ -38,6 +39,7 @@ ORDERS = {
 }
 ROUND = ("CTRIAX6", "CTRAX6")  # corners and mid-side nodes in turn
 #: names of cards of cells begin with these: those that are not known here must not be missing without a word
+LINKS = re.compile(r"(RBE|RBAR|RROD|RTRPLT|RSPLINE|RJOINT|MPC$|CELAS|CDAMP|CONM|CMASS|PLOTEL|CWELD|CFAST)")
 CELLS = re.compile(r"C(TRI|TRA|QUAD|SHEAR|PLST|TETR|PENT|PYR|HEX|IFQ|IFH|IFP|RAC)")
 
 
@@ -46,6 +48,8 @@ def read(path: str | Path) -> RawMesh:
     row_of: dict[int, int] = {}
     points: list[list[float]] = []
     cells: list[tuple[str, int, str, list[int]]] = []  # kind, label, property, labels of nodes
+    labels: set[int] = set()
+    links: Counter[str] = Counter()
     for keyword, fields in _cards("\n".join(_lines(Path(path), []))):
         if keyword in ("GRID", "GRDSET") and fields[1] not in ("", "0"):
             card = f"{keyword} {fields[0]}".strip()
@@ -54,13 +58,20 @@ def read(path: str | Path) -> RawMesh:
                 "basic one is read: write the mesh in that."
             )
         if keyword == "GRID":
+            if int(fields[0]) in row_of:
+                raise UserError(f"{path}: GRID {int(fields[0])} is given twice.")
             row_of[int(fields[0])] = len(points)
             points.append([_number(word) for word in fields[2:5]])
         elif keyword in KINDS:
             kind, nodes = _cell(keyword, fields, path)
             if kind == "line" and len(nodes) < 2:  # a spring to the ground
                 continue
+            if int(fields[0]) in labels:
+                raise UserError(f"{path}: cell {int(fields[0])} is given twice.")
+            labels.add(int(fields[0]))
             cells.append((kind, int(fields[0]), fields[1], nodes))
+        elif LINKS.match(keyword):
+            links[keyword] += 1
         elif CELLS.match(keyword):
             raise UserError(f"{path}: cells of the card {keyword} (the first is {fields[0]}) are not read.")
     blocks: list[RawCells] = []
@@ -82,6 +93,10 @@ def read(path: str | Path) -> RawMesh:
         cell_sets={
             f"property {n}": [np.flatnonzero(own == n) for own in properties] for n in sorted(names, key=int)
         },
+        notes=[
+            f"{card} ({number} of them) left out: give what joins nodes in `.MCE`."
+            for card, number in sorted(links.items())
+        ],
     )
 
 

@@ -29,6 +29,7 @@ class RawMesh:
     point_data: dict[str, Any] = field(default_factory=dict)
     cell_data: dict[str, Any] = field(default_factory=dict)
     field_data: dict[str, Any] = field(default_factory=dict)
+    notes: list[str] = field(default_factory=list)  #: of what is in the file and not here
 
 
 def text_of(path: str | Path) -> str:

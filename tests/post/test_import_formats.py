@@ -4,13 +4,14 @@ second order, and how VTK writes meshes."""
 
 from __future__ import annotations
 
+import subprocess
 from pathlib import Path
 
 import meshes
 import meshio
 import numpy as np
 import pytest
-from test_import import check_cell, imported
+from test_import import check_cell, imported, program
 
 
 def test_what_places_nodes_is_read_or_refused(command, tmp_path: Path) -> None:
@@ -159,6 +160,20 @@ def test_cards_of_nastran(command, tmp_path: Path) -> None:
         assert deck.cells == {1: [1, 2, 3, 4, 0, 5, 6, 7, 8]}
         assert deck.groups["property 10"] == ("MAILLES", [(1,)])
         assert deck.groups["property 20"] == ("FACES", [(1, 2)])
+
+
+def test_what_nastran_gives_twice_or_in_vain(command, tmp_path: Path) -> None:
+    """The later of two grids or cells of one number counted, without a word; so were links left out."""
+    file = tmp_path / "mesh.bdf"
+    cell = "CHEXA,2,20,1,2,3,4,5,6\n,7,8\n"
+    for more, said in (("GRID,1,,9.,9.,9.\n", "GRID 1 is given twice"), (cell, "cell 2 is given twice")):
+        file.write_text(f"BEGIN BULK\n{GRIDS}{cell}{more}")
+        status, _, err = command("import", file, "-o", tmp_path / "d.dat")
+        assert status == 1 and said in err
+    file.write_text(f"BEGIN BULK\n{GRIDS}{cell}RBE2,9,1,123,2,5\nCONM2,7,1,,5.\nCONM2,8,2,,5.\nPSOLID,20,1\n")
+    _, out, err = imported(command, tmp_path, file)
+    assert "RBE2 (1 of them) left out" in out + err and "CONM2 (2 of them) left out" in out + err
+    assert "PSOLID" not in out + err
 
 
 @pytest.mark.parametrize(
@@ -325,3 +340,51 @@ def test_what_abaqus_allows(command, tmp_path: Path) -> None:
         deck, _, err = imported(command, tmp_path, file)
         assert err == "" and len(deck.cells[1]) == len(points) + 1
         check_cell(deck, deck.cells[1])
+
+
+# two squares of different materials, one behind the other: results have two nodes where they meet
+SEAM = """.NOE
+ 1 0 0 0
+ 2 1 0 0
+ 3 2 0 0
+ 4 0 1 0
+ 5 1 -1.2345678901234567 0
+ 6 2 1 0
+.MAI
+ I 1 N 1 5 2 4
+ I 2 N 5 3 6 2
+.MAT
+ I 1 YT 1000. NT 0.3
+ I 2 YT 2000. NT 0.3
+.HYP MEMB BIDIM
+.SEL
+ GROUP 1 NOM "a" MAILLES 1
+ GROUP 2 NOM "b" MAILLES 2
+ GROUP 3 NOM "middle" NOEUDS 2 5
+.PHP GROUP "a" "b" THICK VAL 0.1
+.AEL
+ GROUP "a" MAT 1
+ GROUP "b" MAT 2
+.CLM
+ FIX NOEUD 1 4 3 6 C 1 2
+ NOEUD 2 5 CHA C 1 V 1.
+.FIN 1
+"""
+
+
+@pytest.mark.parametrize("ending", ["vtu", "vtk", "med", "msh", "bdf", "inp"])
+def test_parts_that_meet_stay_joined(ending: str, command, tmp_path: Path) -> None:
+    (tmp_path / "seam.dat").write_text(SEAM, encoding="utf-8")
+    subprocess.run(
+        [program(), tmp_path / "seam.dat", "-o", tmp_path / "run"], check=True, capture_output=True
+    )
+    file = tmp_path / f"mesh.{ending}"
+    status, _, err = command("export", tmp_path / "run.h5", "--mesh", file)
+    assert status == 0, err
+    deck, _, err = imported(command, tmp_path, file)
+    assert len(deck.nodes) == 6
+    first, second = (set(map(abs, deck.cells[cell])) for cell in sorted(deck.cells))
+    shared = [tuple(np.round(deck.nodes[n], 9)) for n in first & second]
+    assert sorted(shared) == [(1, -1.23456789, 0), (1, 0, 0)]
+    if "middle" in deck.groups:
+        assert sum(len(row) for row in deck.groups["middle"][1]) == 2
