@@ -147,7 +147,10 @@ void Attempt::announce() {
 void Attempt::run() {
   scheme_ = make_scheme(context_);
   runner_.emplace(context_, *scheme_);
-  if (schedule_.controlled()) observer_.keep_ends();
+  if (schedule_.controlled())
+    observer_.keep_ends();
+  else if (trial_.options.family == SolverOptions::Family::radau)
+    observer_.integrate_smoothly();
   const StepCallback seen = [this](const Configuration& solved, const StepReport& step) { return after_step(solved, step); };
   leave_at_once(true);
   try {

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "math/linear_rotation.hpp"
 #include "math/rotation.hpp"
 
 namespace engrane {
@@ -48,7 +49,7 @@ LoadSum sum_loads(const Assembler& assembler, const Configuration& c) {
       Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
       for (int k = 0; k < 6; ++k)
         if (layout.has(i, k)) (k < 3 ? force : moment)[k % 3] = forces[slot++];
-      moment = state.R * moment;
+      moment = moment_in_space(state.R, moment);
       sum.force += force;
       sum.moment += moment + place_of_force(model, c, part.nodes[i]).cross(force);
       const Vec3 displacement = state.x - model.nodes[node].x + Eigen::Map<const Vec3>(&c.remainders[6 * node]);

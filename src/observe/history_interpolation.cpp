@@ -88,7 +88,8 @@ std::vector<double> HistoryInterpolation::at(double time, std::span<const double
     }
     values[i] = std::clamp(values[i], channel.low, channel.high);
   }
-  for (std::size_t i = values.size(); astray && i < all.size(); ++i) all[i] = calmed(i, weights.size(), weighted(i, calm), all[i]);
+  for (std::size_t i = values.size(); astray && i < all.size(); ++i)
+    all[i] = calmed(i, weights.size(), weighted(i, calm), all[i]);
   return {all.begin() + static_cast<std::ptrdiff_t>(values.size()), all.end()};
 }
 

@@ -41,7 +41,7 @@ std::vector<Channel> run_channels(const Model& model, bool moves) {
     channels.push_back({fmt::format("BUCKLING_TIME_{}", mode), dimension::time,
                         "time of functions at which the model buckles, by linearisation; 0 where it is not known"});
   if (!cells) return channels;
-  channels.push_back({"STRAIN_ENERGY", dimension::energy, "energy that the cells hold as strain"});
+  channels.push_back({"STRAIN_ENERGY", dimension::energy, "energy that cells and beams hold as strain"});
   channels.push_back({"LOAD_WORK", dimension::energy, "work u·F of these loads on the displacements from the reference"});
   for (const char* name : {"LOAD_FORCE_X", "LOAD_FORCE_Y", "LOAD_FORCE_Z"})
     channels.push_back({name, dimension::force, "sum of loads, pressures and weight, global"});
@@ -102,11 +102,11 @@ void Observer::observe(const Configuration& c, const Step& step, bool histories,
   events_ += static_cast<double>(step.events);
   if (fields) find_fields(c);
   if (histories || interpolation_) evaluate_histories(c, step);
+  if (step.corner) ledger_.begin_anew();
   if (!interpolation_) return;
   interpolation_->add(c.time, values_, sources_);
   if (!inside && !begins) interpolation_->doubt();
   if (begins || step.corner) interpolation_->begin_anew();
-  if (step.corner) ledger_.begin_anew();
 }
 
 void Observer::observe_inside(const Configuration& c) {

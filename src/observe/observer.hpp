@@ -40,6 +40,8 @@ class Observer {
 
   /// Keeps the values of all histories observed from now on, for between().
   void keep_ends();
+  /// Integrates powers by polynomials through several ends of steps (EnergyLedger), for even steps of a scheme of high order.
+  void integrate_smoothly() { ledger_.integrate_smoothly(); }
   /// Observes a configuration in equilibrium inside the step whose end is observed next, at one of the lobatto_points.
   void observe_inside(const Configuration& c);
   /// Takes only the power of a configuration as for observe_inside(), without histories.

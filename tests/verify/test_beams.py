@@ -30,7 +30,7 @@ def bend_error(nodes: int, pieces: int, folder: Path) -> float:
 
 
 @pytest.mark.parametrize(
-    ("nodes", "expected"), [(2, [0.626, 0.1595, 0.0401]), (3, [0.138, 0.00981, 0.000624])]
+    ("nodes", "expected"), [(2, [0.2772, 0.0643, 0.01579]), (3, [0.138, 0.00981, 0.000624])]
 )
 def test_bend(nodes: int, expected: list[float], tmp_path: Path) -> None:
     """Errors of the tip with 5, 9 and 17 nodes."""
@@ -52,7 +52,7 @@ def elastica(alpha: float) -> tuple[float, float]:
 
 
 @pytest.mark.parametrize("slenderness", [1e3, 1e4, 1e6])
-@pytest.mark.parametrize(("nodes", "expected"), [(2, [1.756e-3, 4.47e-4]), (3, [3.864e-4, 2.62e-5])])
+@pytest.mark.parametrize(("nodes", "expected"), [(2, [1.881e-3, 4.51e-4]), (3, [3.864e-4, 2.62e-5])])
 def test_elastica(nodes: int, expected: list[float], slenderness: float, tmp_path: Path) -> None:
     """Of beams whose length is that many times their height the error is the same: nothing locks."""
     stiff = 12 * slenderness**2

@@ -175,3 +175,50 @@ def test_static_start_without_equilibrium_blames_no_scheme(tmp_path: Path) -> No
     assert done.returncode == 2
     assert "nothing resists" in done.stderr
     assert "RADAU" not in done.stderr
+
+
+OFFSET = """ABRE '/g' '{size}'
+.NOE
+ 1 0 0 0
+ 2 1 0 0
+.MAI
+ I 1 N 1 2
+.MAT
+ I 1 YT 2000. NT 0.3 M 2.
+.BPR
+ I 1 AREA 0.015 INERTIA 2D-4 2D-4 TORSION 2D-4 OFFSET 0. 0.05
+.SEL GROUP 1 NOM "b" MAILLES 1
+.HYP BEAM GROUP "b"
+.AEL
+ GROUP "b" MAT 1 BPR 1 AXIS2 0 1 0
+.CLM
+ FIX NOEUD 1 C 1 2 3 4 5 6
+ STRU ACC VAL 0. /g 0.
+.FIN
+"""
+
+
+def test_weight_beside_the_nodes(tmp_path: Path) -> None:
+    """It gives a constant moment about the beam, which turned with it: reactions were off by its square."""
+    found = [run(OFFSET.format(size=g), tmp_path, f"g{g:.0f}") for g in (1.0, 1e6)]
+    weight = 2 * 0.015
+    for g, one in zip((1.0, 1e6), found, strict=True):
+        assert one["run/GROUND_MOMENT_X"][-1] == pytest.approx(0.05 * weight * g, rel=1e-12)
+        assert one["run/LOAD_MOMENT_X"][-1] == pytest.approx(-0.05 * weight * g, rel=1e-12)
+        for still in ("node/2/RY", "run/GROUND_MOMENT_Y", "run/LOAD_MOMENT_Y", "1/NORMAL_FORCE_A"):
+            assert abs(one[still][-1]) < 1e-9 * g
+    assert found[1]["node/2/UY"][-1] == pytest.approx(1e6 * found[0]["node/2/UY"][-1], rel=1e-9)
+
+
+def test_relation_of_rotations(tmp_path: Path) -> None:
+    """It holds between components of rotation vectors, whatever their length: 3 m instead of 0.87 for 0.3."""
+    for moment in (1e-3, 1e3):
+        text = ROD + f" CHA NOEUD 3 C 4 5 6 V {moment} {2 * moment} {3 * moment}\n"
+        text += ".LIA\n I 10 NOEUD 3 2 C 6 6 A 1. -1.5\n.SAI NOEUD 2 3\n.FIN 1\n"
+        found = run(text, tmp_path, f"m{moment}")
+        near, far = (motions(found, node) / moment for node in (2, 3))
+        assert far[5] == pytest.approx(1.5 * near[5], rel=1e-9)
+        if moment < 1:
+            first = far
+        else:
+            assert far == pytest.approx(first, rel=1e-6, abs=1e-8 * np.abs(first).max())

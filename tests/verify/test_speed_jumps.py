@@ -199,3 +199,39 @@ def test_work_of_a_drive_to_a_corner(tmp_path: Path) -> None:
     whole = run(text, tmp_path)
     assert whole["run/external_work"][-1] == pytest.approx(50, rel=1e-9)
     assert abs(whole["run/energy_error"]).max() < 1e-9 * 50
+
+
+RELATION = """.NOE
+ I 1 X 1 0 0
+ I 2 X 2 0 0
+.FCT
+ I 1 TABLE 0 0 .2 0 .201 .01 .5 .01
+.MCE
+ I 11 INERTIA N 1 M 1 J 1
+ I 12 INERTIA N 2 M 2 J 1
+ I 13 SPRING N 1 2 K 1000 C 2
+ I 1 PRISMATIC N 0 2 AXIS 1 0 0
+{imposed}
+.SAM TYPE DYNAMIC {analysis}
+.SUB TF .4 H .002 {stepping}
+.FIN 1
+"""
+BY_RELATION = " I 2 PRISMATIC N 0 1 AXIS 1 0 0\n.LIA\n I 50 NOEUD 1 C 1 A 1. V 1 NF 1"
+BY_SUPPORT = ".CLM\n FIX NOEUD 1 C 2 3 4 5 6\n DEP NOEUD 1 C 1 V 1 NF 1"
+
+
+@pytest.mark.parametrize(("analysis", "stepping"), [("SCHEME RADAU", "TOL 1E-7"), ("ACCURACY NORMAL", "")])
+def test_a_relation_imposes_the_motion_of_a_support(analysis: str, stepping: str, tmp_path: Path) -> None:
+    """Its impulses were forces over a step: sound runs were ended for their energies."""
+    by_relation, by_support = (
+        run(RELATION.format(imposed=i, analysis=analysis, stepping=stepping), tmp_path, name)
+        for name, i in (("relation", BY_RELATION), ("support", BY_SUPPORT))
+    )
+    least = 1e-6 if stepping else 1e-3
+    for channel in ("node/2/UX", "run/EXTERNAL_WORK", "run/KINETIC_ENERGY"):
+        size = np.abs(by_support[channel]).max()
+        np.testing.assert_allclose(by_relation[channel], by_support[channel], rtol=0, atol=least * size)
+    assert (
+        np.abs(by_relation["run/ENERGY_ERROR"]).max()
+        < least * np.abs(by_relation["run/KINETIC_ENERGY"]).max()
+    )

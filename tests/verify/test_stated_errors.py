@@ -359,7 +359,8 @@ def test_steps_end_at_the_joints_of_a_cam(
     deck = CAM.format(law=law)
     found, result = solve_by(deck, f"ACCURACY {setting}", tmp_path)
     assert found["steps"] < steps
-    channels = ("node/2/AY", "3/NORMAL_FORCE", "2/RADIAL_FORCE", "4/KINETIC_ENERGY", "1/MOMENT_Z")
+    of_elements = ("3/NORMAL_FORCE", "3/PRESSURE_ANGLE", "2/RADIAL_FORCE", "4/KINETIC_ENERGY", "1/MOMENT_Z")
+    channels = ("node/2/AY", *of_elements)
     expect_honest(found, result, truth_of(deck), channels)
 
 

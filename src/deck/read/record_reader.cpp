@@ -119,7 +119,7 @@ const Field* RecordReader::positional_field(const Reading& reading, const Token&
     if (text) return &field;
     if (field.type == FieldType::choice && match_option(field, token.text).entry) return &field;
     const bool ids = field.type == FieldType::integer && field.reference != Reference::nothing;
-    if (ids && same_word(token.text, "I")) return &field;  // the range I a J b K c
+    if (ids && same_word(token.text, "I") && tokens_.peek(1).is_number()) return &field;  // the range I a J b K c
   }
   return nullptr;
 }

@@ -84,7 +84,8 @@ std::optional<BeamPiece<Nodes>> make_piece(Plan& plan, const std::array<Vec3, No
     point.shape = shape.value;
     for (std::size_t i = 0; i < Nodes; ++i) point.slope[i] = shape.slope[i] / stretch;
     point.axes = *axes;
-    point.section = plan.sections.at(part(rule[p].place));
+    const double place = part(rule[p].place);
+    point.section = Nodes == 2 ? plan.sections.at(place, length) : plan.sections.at(place);
   }
 
   const auto lengths = line_masses<Nodes>(places);

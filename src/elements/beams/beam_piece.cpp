@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "elements/common/building.hpp"
+#include "math/rotation.hpp"
 
 template class engrane::TemplatedBlock<engrane::elements::beams::BeamPiece<2>, 2, 15>;
 template class engrane::TemplatedBlock<engrane::elements::beams::BeamPiece<3>, 3, 24>;
@@ -73,25 +74,28 @@ Energies Beams<Nodes, Held>::energies(std::size_t e, const State& state) const {
   Energies sum;
   for (std::size_t p = 0; p < piece.at.size(); ++p) {
     const Vec6 strain = piece.strain(motion, p, state.time), stress = piece.stress(p, strain);
-    sum.potential += piece.at[p].length / 2 * stress.dot(strain);
+    sum.strain += piece.at[p].length / 2 * stress.dot(strain);
     sum.external -= piece.at[p].length * stress[0] * piece.free_stretch_rate(p, state.time);  // ∂V/∂ΔT dΔT
     if (piece.section->damping > 0) {
       const Vec6 rate = piece.strain_rate(motion, p);
       sum.dissipated += piece.at[p].length * piece.section->damping * rate.dot(piece.stress(p, rate));
     }
   }
+  sum.potential = sum.strain;
   if (!piece.section->has_mass()) return sum;
-  std::array<Vec3, Nodes> velocity;
+  std::array<Vec3, Nodes> velocity, center;
   for (std::size_t i = 0; i < Nodes; ++i) {
     const NodeState& node = state.nodes[i];
-    velocity[i] = node.v + node.R * cross(node.W, piece.centers[i]);
+    const Vec3 &arm = piece.centers[i], change = cross(node.W, arm);
+    velocity[i] = node.v + (piece.small ? change : Vec3(node.R * change));
+    center[i] = node.x + (piece.small ? Vec3(arm + cross(rotation_log(node.R), arm)) : Vec3(node.R * arm));
     sum.kinetic += 0.5 * node.W.dot(piece.inertia[i] * node.W);
   }
   for (std::size_t i = 0; i < Nodes; ++i)
     for (std::size_t j = 0; j < Nodes; ++j) {
       const double mass = piece.mass(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
       sum.kinetic += 0.5 * mass * velocity[i].dot(velocity[j]);
-      sum.add_weight(state, mass, state.nodes[i].x + state.nodes[i].R * piece.centers[i], velocity[i]);
+      sum.add_weight(state, mass, center[i], velocity[i]);
     }
   return sum;
 }
@@ -141,9 +145,10 @@ void Beams<Nodes, Held>::observe(std::size_t e, const State& state, std::span<do
     const std::size_t node = end == 0 ? 0 : Nodes - 1;
     const double sign = end == 0 ? -1 : 1;  // section forces act on the face whose outward normal is along the beam
     const double* at = r.data() + 6 * node;
-    const Vec3 force =
-        piece.axes[end == 0 ? 0 : Nodes - 1].transpose() * (state.nodes[node].R.transpose() * Vec3(at[0], at[1], at[2]));
-    const Vec3 moment = piece.axes[end == 0 ? 0 : Nodes - 1].transpose() * Vec3(at[3], at[4], at[5]);
+    const Mat3 back = piece.axes[node].transpose();
+    const Vec3 in_space(at[0], at[1], at[2]);
+    const Vec3 force = back * (piece.small ? in_space : Vec3(state.nodes[node].R.transpose() * in_space));
+    const Vec3 moment = back * Vec3(at[3], at[4], at[5]);
     for (Eigen::Index c = 0; c < 3; ++c) values[next++] = sign * force[c];
     for (Eigen::Index c = 0; c < 3; ++c) values[next++] = sign * moment[c];
   }

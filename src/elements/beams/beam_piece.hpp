@@ -334,6 +334,7 @@ struct BeamPiece {
     }
   }
 
+  /// With small displacements the arms to the centres of mass keep their directions, so that weight gives constant moments.
   template <class T>
   void add_inertia(const Motion<T, Nodes>& motion, const State& state, Balance<T, Nodes>& balance) const {
     std::array<Vec3T<T>, Nodes> acceleration;
@@ -343,7 +344,8 @@ struct BeamPiece {
       acceleration[i] = node.a - state.gravity.template cast<T>();
       if (aside) {
         const Vec3T<T> arm = centers[i].template cast<T>();
-        acceleration[i] += rotate(node.R, Vec3T<T>(cross(node.A, arm) + cross(node.W, Vec3T<T>(cross(node.W, arm)))));
+        acceleration[i] += small ? Vec3T<T>(cross(node.A, arm))
+                                 : rotate(node.R, Vec3T<T>(cross(node.A, arm) + cross(node.W, Vec3T<T>(cross(node.W, arm)))));
       }
     }
     for (std::size_t i = 0; i < Nodes; ++i) {
@@ -354,7 +356,10 @@ struct BeamPiece {
       balance.force(static_cast<int>(i), force);
       const Vec3T<T> spin = rotate(inertia[i], node.W);
       Vec3T<T> moment = rotate(inertia[i], node.A) + cross(node.W, spin);
-      if (aside) moment += cross(Vec3T<T>(centers[i].template cast<T>()), rotate_back(node.R, force));
+      if (aside) {
+        const Vec3T<T> arm = centers[i].template cast<T>();
+        moment += cross(arm, small ? force : Vec3T<T>(rotate_back(node.R, force)));
+      }
       balance.moment(static_cast<int>(i), moment);
     }
   }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <map>
@@ -28,6 +29,13 @@ bool is_round(const BeamSection& section) {
       if (std::abs(change(i, j)) > rounding * std::sqrt(section.stiffness(i, i) * section.stiffness(j, j))) return false;
   const Mat3 other = turn * section.inertia * turn.transpose() - section.inertia;
   return section.center.isZero(0) && other.norm() <= rounding * section.inertia.norm();
+}
+
+/// `section` for a piece of two nodes of this length.
+std::shared_ptr<const BeamSection> bent(const BeamSection& section, double length) {
+  auto own = std::make_shared<BeamSection>(section);
+  own->stiffness = with_bending_within(section.stiffness, length);
+  return own;
 }
 
 /// Records of `.BPR` by number, and a cache of the sections made from them.
@@ -200,6 +208,32 @@ std::optional<SectionLine> SectionBook::make_line(const SectionChoice& choice, c
 }
 
 }  // namespace
+
+Mat6 with_bending_within(const Mat6& stiffness, double length) {
+  if (!(stiffness.diagonal().minCoeff() > 0)) return stiffness;
+  // rows in units of their own, which makes the inverses accurate
+  const Vec6 size = stiffness.diagonal().cwiseSqrt(), part = size.cwiseInverse();
+  const Eigen::LDLT<Mat6> factors(part.asDiagonal() * stiffness * part.asDiagonal());
+  if (factors.info() != Eigen::Success || !factors.isPositive()) return stiffness;
+  const Mat6 compliance = part.asDiagonal() * factors.solve(Mat6::Identity()) * part.asDiagonal();
+  Mat6 slope = Mat6::Zero();
+  slope(4, 2) = 1;
+  slope(5, 1) = -1;
+  const Mat6 scaled =
+      size.asDiagonal() * Mat6(compliance + length * length / 12 * slope.transpose() * compliance * slope) * size.asDiagonal();
+  const Mat6 inverse = Eigen::LDLT<Mat6>(scaled).solve(Mat6::Identity());
+  const Mat6 whole = size.asDiagonal() * inverse * size.asDiagonal();
+  return (whole + whole.transpose()) / 2;
+}
+
+std::shared_ptr<const BeamSection> SectionLine::at(double part, double length) const {
+  auto section = at(part);
+  if (!section->held.empty()) return section;
+  if (between_) return bent(*section, length);
+  auto& own = (*of_pieces_)[length];
+  if (!own) own = bent(*section, length);
+  return own;
+}
 
 std::optional<SectionLine> sections_of(const SectionChoice& choice, const BuildContext& context) {
   const auto make = [&context] { return SectionBook(context.records); };

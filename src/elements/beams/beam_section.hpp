@@ -3,6 +3,7 @@
 
 #include <compare>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -58,12 +59,23 @@ class SectionLine {
 
   /// Section at a fraction of the length: 0 at the first node, 1 at the last.
   std::shared_ptr<const BeamSection> at(double part) const { return between_ ? between_(part) : first_; }
+  /// That section for a piece of two nodes of this length, with the compliance of bending within the piece (with_bending_within).
+  /// Sections with held strains are returned as they are.
+  std::shared_ptr<const BeamSection> at(double part, double length) const;
   const BeamSection& first() const { return *first_; }
 
  private:
   std::shared_ptr<const BeamSection> first_;
   Make between_;  ///< empty: constant section
+  using ByLength = std::map<double, std::shared_ptr<const BeamSection>>;
+  std::shared_ptr<ByLength> of_pieces_ = std::make_shared<ByLength>();  ///< constant section: at(part, length)
 };
+
+/// Stiffness of a section for a piece of two nodes, in which strains are constant. Shear forces V bend the piece by moments that
+/// change linearly along it, M′ = −e_1 × V: their energy is that of the additional compliance Aᵀ C⁻¹ A L²/12, A being the map
+/// from forces to M′. Straight pieces with loads at their ends are then exact (residual bending flexibility: MacNeal, Comput.
+/// Struct. 8 (1978) 175, eq. 22, for shells). Returns C itself if it is not positive definite.
+Mat6 with_bending_within(const Mat6& stiffness, double length);
 
 /// Returns the sections of a choice, cached per model. Returns nothing after an error, which is reported at the keyword BPR,
 /// BPR_END or MAT of the record.

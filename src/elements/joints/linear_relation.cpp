@@ -8,6 +8,7 @@
 
 #include "elements/common/axis_angle.hpp"
 #include "elements/common/building.hpp"
+#include "math/linear_rotation.hpp"
 #include "model/outside_force.hpp"
 #include "model/templated_element.hpp"
 
@@ -18,7 +19,8 @@ namespace {
 constexpr int most_nodes = 6;
 
 /// Φ = Σ aᵢ uᵢ − V f(t). A displacement is a global component measured from the node's reference position; a rotation is the
-/// node's angle about a global axis (axis_angle), with turns counted.
+/// node's angle about a global axis (axis_angle), with turns counted; in linear statics it is a component of the rotation vector
+/// (linear_rotation).
 class LinearRelation final : public TemplatedElement<LinearRelation, most_nodes, 6 * most_nodes + 1>, public OutsideForce {
  public:
   struct Term {
@@ -33,7 +35,8 @@ class LinearRelation final : public TemplatedElement<LinearRelation, most_nodes,
   LinearRelation(int id, Layout layout, std::vector<Term> terms, double value, const Function* function)
       : TemplatedElement(id), terms_(std::move(terms)), value_(value), function_(function) {
     const bool angles = std::all_of(terms_.begin(), terms_.end(), [](const Term& t) { return t.turns(); });
-    layout.multipliers = {{"REACTION", angles ? dimension::angle : dimension::length, "force per unit of a coefficient"}};
+    layout.multipliers = {{"REACTION", angles ? dimension::angle : dimension::length, "force per unit of a coefficient",
+                           function ? Role::drive : Role::other}};
     set_layout(std::move(layout));
     channels_ = {{"VALUE", angles ? dimension::angle : dimension::length, "sum of coefficients times displacements"},
                  {"REACTION", angles ? dimension::moment : dimension::force,
@@ -50,7 +53,7 @@ class LinearRelation final : public TemplatedElement<LinearRelation, most_nodes,
       const auto& node = motion.node[t.node];
       if (t.turns()) {
         turned[i] = angle<T>(t, node.R);
-        sum += t.coefficient * turn_count::total(turned[i].angle, committed(t, state));
+        sum += t.coefficient * total(t, turned[i].angle, state);
       } else {
         sum += t.coefficient * (node.x[t.component] - t.origin);
       }
@@ -61,7 +64,7 @@ class LinearRelation final : public TemplatedElement<LinearRelation, most_nodes,
       const T pull = t.coefficient * effort;
       if (t.turns()) {
         const auto& R = motion.node[t.node].R;
-        balance.moment(static_cast<int>(t.node), rotate_back(R, Vec3T<T>(turned[i].gradient * T(-pull))));
+        balance.moment(static_cast<int>(t.node), moment_on_node(R, Vec3T<T>(turned[i].gradient * T(-pull))));
       } else {
         Vec3T<T> force(T(0), T(0), T(0));
         force[t.component] = -pull;
@@ -72,7 +75,7 @@ class LinearRelation final : public TemplatedElement<LinearRelation, most_nodes,
 
   void count_turns(const State& state, std::span<double>, std::span<double> history) const override {
     for (const Term& t : terms_)
-      if (t.turns())
+      if (t.turns() && !is_linear_rotation(state.nodes[t.node].R))
         turn_count::commit(angle<double>(t, state.nodes[t.node].R).angle, committed(t, state),
                            history.subspan(static_cast<std::size_t>(t.history), turn_count::history));
   }
@@ -83,9 +86,9 @@ class LinearRelation final : public TemplatedElement<LinearRelation, most_nodes,
     return e;
   }
 
-  bool is_linear() const override {
-    return std::none_of(terms_.begin(), terms_.end(), [](const Term& t) { return t.turns(); });
-  }
+  std::vector<Release> releases() const override { return {}; }  // a drive is all there is of it
+
+  bool is_linear() const override { return true; }
 
   const std::vector<Channel>& channels() const override { return channels_; }
 
@@ -101,7 +104,14 @@ class LinearRelation final : public TemplatedElement<LinearRelation, most_nodes,
   }
 
   template <class T>
+  T total(const Term& t, const T& angle, const State& state) const {
+    return is_linear_rotation(state.nodes[t.node].R) ? angle : turn_count::total(angle, committed(t, state));
+  }
+
+  template <class T>
   AxisAngle<T> angle(const Term& t, const Mat3T<T>& R) const {
+    if (is_linear_rotation(R))
+      return {linear_rotation_vector<T>(R)[t.component - 3], Vec3(Vec3::Unit(t.component - 3)).template cast<T>()};
     std::array<Vec3T<T>, 3> fixed, carried;
     for (int k = 0; k < 3; ++k) {
       const Vec3 e = Vec3::Unit((t.component + k) % 3);
@@ -115,8 +125,7 @@ class LinearRelation final : public TemplatedElement<LinearRelation, most_nodes,
     double sum = 0;
     for (const Term& t : terms_) {
       const NodeState& node = state.nodes[t.node];
-      sum += t.coefficient * (t.turns() ? turn_count::total(angle<double>(t, node.R).angle, committed(t, state))
-                                        : node.x[t.component] - t.origin);
+      sum += t.coefficient * (t.turns() ? total(t, angle<double>(t, node.R).angle, state) : node.x[t.component] - t.origin);
     }
     return sum;
   }
