@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Reads the mesh of a Nastran file: GRID and the cards of cells, in small, large or free fields, with all
 ways to continue a card on the next line, and INCLUDE (MSC Nastran, Quick Reference Guide, The Bulk Data
-Section). The cells with one property are a group. Cards of cells that are not known are refused, those of
-what joins nodes are told of, and everything else is passed over."""
+Section). The cells with one property are a group. Cards of cells that are not known are refused, links,
+springs and masses are named in a note, and everything else is passed over."""
 
 from __future__ import annotations
 
@@ -38,8 +38,9 @@ ORDERS = {
     "hexahedron20": [*range(12), 16, 17, 18, 19, 12, 13, 14, 15],
 }
 ROUND = ("CTRIAX6", "CTRAX6")  # corners and mid-side nodes in turn
-#: names of cards of cells begin with these: those that are not known here must not be missing without a word
+#: names of links, springs and masses begin with these, which a mesh does not have
 LINKS = re.compile(r"(RBE|RBAR|RROD|RTRPLT|RSPLINE|RJOINT|MPC$|CELAS|CDAMP|CONM|CMASS|PLOTEL|CWELD|CFAST)")
+#: names of cards of cells begin with these: those that are not known here must not be missing without a word
 CELLS = re.compile(r"C(TRI|TRA|QUAD|SHEAR|PLST|TETR|PENT|PYR|HEX|IFQ|IFH|IFP|RAC)")
 
 
@@ -94,7 +95,7 @@ def read(path: str | Path) -> RawMesh:
             f"property {n}": [np.flatnonzero(own == n) for own in properties] for n in sorted(names, key=int)
         },
         notes=[
-            f"{card} ({number} of them) left out: give what joins nodes in `.MCE`."
+            f"{card} ({number} of them) left out: links, springs and masses are given in `.MCE`."
             for card, number in sorted(links.items())
         ],
     )

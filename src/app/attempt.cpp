@@ -149,7 +149,7 @@ void Attempt::run() {
   runner_.emplace(context_, *scheme_);
   if (schedule_.controlled())
     observer_.keep_ends();
-  else if (trial_.options.family == SolverOptions::Family::radau)
+  else if (trial_.options.ends_even_steps_at_corners())
     observer_.integrate_smoothly();
   const StepCallback seen = [this](const Configuration& solved, const StepReport& step) { return after_step(solved, step); };
   leave_at_once(true);

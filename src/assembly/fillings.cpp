@@ -8,7 +8,6 @@ namespace engrane {
 
 namespace {
 
-constexpr double sqrt5 = 2.2360679774997896964;
 /// Derivatives at the points of Lobatto quadrature in [0, 1] of the cubics that are 1 at one of the points and 0 at the others.
 constexpr std::array<std::array<double, 4>, 4> slopes_at_points{{
     {-6, (5 + 5 * sqrt5) / 2, (5 - 5 * sqrt5) / 2, 1},

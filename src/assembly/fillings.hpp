@@ -9,6 +9,9 @@
 
 namespace engrane {
 
+/// √5, which the points of Lobatto quadrature and what belongs to them are made of.
+inline constexpr double sqrt5 = 2.2360679774997896964;
+
 /// What fills the elements of this rank, and its work: with g and L, the work at constant size, of each element
 ///
 ///     L(q₀, q₁, s₁) + ∫ (g(q, s) − g(q, s₁)) dq.

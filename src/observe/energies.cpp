@@ -21,7 +21,6 @@ constexpr double longest_beside = 100;
 /// Integrals from the beginning of a step to the second, third and fourth of the points of Lobatto quadrature, of the cubic
 /// through four values of a function: to the end of the step they are exact for degree five (the coefficients of Lobatto IIIA of
 /// order 6: Hairer and Wanner, Solving Ordinary Differential Equations II, table IV.5.8).
-constexpr double sqrt5 = 2.2360679774997896964;
 constexpr std::array<std::array<double, 4>, 3> lobatto{{
     {(11 + sqrt5) / 120, (25 - sqrt5) / 120, (25 - 13 * sqrt5) / 120, (sqrt5 - 1) / 120},
     {(11 - sqrt5) / 120, (25 + 13 * sqrt5) / 120, (25 + sqrt5) / 120, (-1 - sqrt5) / 120},

@@ -183,9 +183,10 @@ void Observer::put_known(const Configuration& c, bool steady, std::span<const do
   const std::vector<Histories::Known>& known = histories_.known();
   if (known.empty()) return;
   const std::vector<double>* moved = steady ? nullptr : &histories_.sources(c);
+  std::vector<double> own;
   for (const Histories::Known& one : known) {
     const std::span<const double> all = moved && of_motion(one.of_source) ? std::span<const double>(*moved) : sources;
-    std::vector<double> own;
+    own.clear();
     for (const std::size_t column : one.columns) own.push_back(values_[column]);
     const std::size_t count = one.determined.sources.size();
     values_[one.column] = one.at(c.load_time(), own.empty() ? all.subspan(one.first, count) : std::span<const double>(own));
