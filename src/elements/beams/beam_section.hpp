@@ -74,7 +74,7 @@ class SectionLine {
 /// Stiffness of a section for a piece of two nodes, in which strains are constant. Shear forces V bend the piece by moments that
 /// change linearly along it, M′ = −e_1 × V: their energy is that of the additional compliance Aᵀ C⁻¹ A L²/12, A being the map
 /// from forces to M′. Straight pieces with loads at their ends are then exact (residual bending flexibility: MacNeal, Comput.
-/// Struct. 8 (1978) 175, eq. 22, for shells). Returns C itself if it is not positive definite.
+/// Struct. 8 (1978) 175, for shells). Returns C itself if it is not positive definite.
 Mat6 with_bending_within(const Mat6& stiffness, double length);
 
 /// Returns the sections of a choice, cached per model. Returns nothing after an error, which is reported at the keyword BPR,
