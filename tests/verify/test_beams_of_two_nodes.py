@@ -59,7 +59,7 @@ def test_section_whose_forces_are_all_coupled(load: str, tmp_path: Path) -> None
     stiffness = scale @ (spread @ spread.T + 3 * np.eye(6)) @ scale / 10
     section = "K\n " + "\n ".join(repr(float(stiffness[i, j])) for i in range(6) for j in range(i, 6))
     tips = [motion(cantilever(n, section, load.format(1e-3)), n, tmp_path, f"n{n}") for n in (2, 33)]
-    assert tips[0] == pytest.approx(tips[1], rel=1e-5, abs=1e-6 * np.abs(tips[1]).max())
+    assert tips[0] == pytest.approx(tips[1], abs=1e-7 * np.abs(tips[1]).max())
 
 
 def test_large_turns(tmp_path: Path) -> None:
@@ -69,4 +69,4 @@ def test_large_turns(tmp_path: Path) -> None:
     pieces = motion(cantilever(9, section, load, "MAT 1 LINEAR", 0.1), 9, tmp_path, "two")
     truth = motion(cantilever(65, section, load, "MAT 1", 0.1), 65, tmp_path, "three")
     assert np.abs(truth[3:]).max() > 1
-    assert pieces == pytest.approx(truth, rel=0.004, abs=0.004)
+    assert pieces == pytest.approx(truth, abs=0.0025)  # 0.0022 as measured

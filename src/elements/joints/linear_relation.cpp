@@ -209,7 +209,8 @@ ElementType linear_relation_type() {
           "The sum of A times the displacements (C 1 to 3) or rotations (C 4 to 6) is V, times the function NF of time: `NOEUD 3 "
           "C 1 A 2. NOEUD 4 C 1 A -1.`, or shorter `NOEUD 3 4 C 1 1 A 2. -1.`, means 2 u3 - u4 = 0. A rotation is the turn about "
           "a global axis, in radians, whole turns counted; it is what one expects of nodes that turn about that axis, as in a "
-          "HINGE. The number must differ from those of the elements of `.MCE`: results name it by it.")
+          "HINGE. In linear statics it is a component of the rotation vector. The number must differ from those of the elements "
+          "of `.MCE`: results name it by it.")
       .example(".LIA\n I 1 NOEUD 3 C 1 A 2. NOEUD 4 C 1 A -1.\n I 2 NOEUD 5 6 C 6 6 A 1. 3.  V 0.1 NF 2");
   card.add("NOEUD", &LinearRelationData::nodes, "the node of each term")
       .synonyms({"NOEUDS", "NODES"})
