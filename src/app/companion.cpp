@@ -55,6 +55,8 @@ constexpr std::size_t most_values = std::size_t{1} << 23, most_instants = 2000;
 constexpr double no_range = 1e-6;
 /// So is one with a range of less than this fraction of the sizes of its kind, about the residuals of iterations.
 constexpr double no_size = 1e-9;
+/// A range that falls below this fraction from the companion to the run is for the most part their error.
+constexpr double ceases = 0.2;
 /// A vibration with half of the range as its amplitude, root of the mean square over time and a little more.
 constexpr double largest_lost = 0.4;
 /// A velocity of an element is taken to be that of its nodes relative to each other, along an axis, where their ranges differ by
@@ -191,6 +193,7 @@ void Companion::choose_columns(const observe::Observer& observer, const Model& m
     columns_.push_back({static_cast<std::size_t>(at), static_cast<std::size_t>(at), owner, channel.name, channel.dimension, 0,
                         std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()});
     columns_.back().part = part;
+    columns_.back().slides = part >= 0 && channel.course == Channel::Course::size && is_velocity(channel.dimension);
     if (part >= 0 && (channel.dimension == dimension::force || is_velocity(channel.dimension)))
       columns_.back().nodes = model.parts[static_cast<std::size_t>(part)].nodes;
     columns_.back().node = node;
@@ -372,9 +375,19 @@ double Companion::noise_of(const Column& column, const std::vector<Largest>& all
     if (is_acceleration && times == -1)
       noise = std::max(noise, no_range * size);
     else if (times == 0 || own.mass != 0)
-      noise = std::max(noise, no_size * size);
+      noise = std::max(noise, (column.slides ? precision_ : no_size) * size);
   }
   return noise;
+}
+
+double Companion::scale_of(std::size_t c) const {
+  const Column& column = columns_[c];
+  Column companion = column;
+  companion.least = std::numeric_limits<double>::infinity();
+  companion.largest = -companion.least;
+  for (std::size_t row = 0; row < rows_; ++row)
+    if (const double value = values_[row * columns_.size() + c]; std::isfinite(value)) companion.include(value);
+  return column.range() < ceases * companion.range() ? column.size() : column.range();
 }
 
 LostChannel Companion::lost_acceleration(const Column& column, const LostVibrations& lost) const {
@@ -451,11 +464,12 @@ ErrorEstimate Companion::estimate(long steps) const {
   const auto share_of = [ratio](double order) { return 1 / (std::pow(ratio, order) - 1); };  // the error over the difference
   const double share = ratio > smooth ? std::min(share_of(assumed), 1.0) : share_of(assumed);
   const std::vector<Largest> all = largest_by_dimension();
-  for (const Column& column : columns_) {
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    const Column& column = columns_[c];
     if (!(column.range() > noise_of(column, all))) continue;
     const double order = order_of(column, steps, assumed);
     const double own_share = order < assumed ? std::max(share, std::min(share_of(order), 1.0)) : share;
-    const double error = own_share * difference(column) / column.range();
+    const double error = own_share * difference(column) / scale_of(c);
     if (error >= found.error) {
       found.error = error;
       found.share = own_share;

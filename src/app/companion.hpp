@@ -88,6 +88,7 @@ class Companion {
     int part = -1;                ///< element (index into Model::parts); −1: not a channel of an element
     int node = -1;                ///< index into Model::nodes; −1: not a channel of a node
     int component = -1;           ///< 0 to 2, of a vector of a node whose three columns are adjacent; −1: not one of these
+    bool slides = false;          ///< the speed at which parts of an element slide: about zero where nothing slides
     double load = 0;              ///< for a force or moment: the largest load on the nodes of its element
 
     void include(double value) {
@@ -117,6 +118,9 @@ class Companion {
   std::vector<Largest> largest_by_dimension() const;
   /// Largest range of a column that may be rounding and residuals of iterations alone, given the largest of all channels.
   double noise_of(const Column& column, const std::vector<Largest>& all) const;
+  /// What the error of a column is a fraction of: its range, or, if most of the range is error, its size. Constants, such as the
+  /// angular momentum of a free body, have no range of their own.
+  double scale_of(std::size_t c) const;
   std::vector<Column> columns_;
   std::vector<std::string> unjudged_;    ///< channels asked for by name that are never compared
   bool placed_ = true;                   ///< Column::at is known

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The start: assembly, branches, initial values as wishes and as musts, and loops that do not close."""
 
+import math
 import re
 from pathlib import Path
 
 import numpy as np
 import pytest
-from runs import Run, engrane
+from runs import Run, engrane, run
 
 # Crank 0.3 at the origin, rocker 0.5 on (1, 0) that stands up, rod between their ends.
 FOUR_BAR = """
@@ -418,3 +419,39 @@ def test_speed_of_a_joint_with_a_point_mass(solver: str, tmp_path: Path) -> None
     assert ended.returncode == 0, ended.stderr
     assert first(tmp_path, "node/2/WZ") == pytest.approx(10, rel=1e-9)
     assert first(tmp_path, "run/KINETIC_ENERGY") == pytest.approx((0.02 + 0.5 * 0.2**2) * 10**2 / 2, rel=1e-9)
+
+
+@pytest.mark.parametrize("sam", ["KINEMATIC", "DYNAMIC", "DYNAMIC PLANE XY", "DYNAMIC SCHEME RADAU"])
+@pytest.mark.parametrize("coefficient", [0.1, 0.001])
+def test_friction_of_a_bearing_beside_teeth_does_not_jam(
+    sam: str, coefficient: float, tmp_path: Path
+) -> None:
+    """The balance leads across |λ| of the separating force before it converges. W: load along the pitch line."""
+    found = run(
+        f"""
+.NOE
+ I 1
+ I 2 X 0.06
+.MCE
+ I 1 HINGE N 0 1 AXIS 0 0 1 DRIVE ANGLE NF 1
+ I 2 HINGE N 0 2 AXIS 0 0 1 FRICTION CONST {coefficient} RADIUS 0.01 VREG 1E-2
+ I 4 GEAR N 1 2 AXIS 0 0 1 Z 20 40 MN 0.002
+ I 11 INERTIA N 1 M 1 J 1E-3
+ I 12 INERTIA N 2 M 2 J 2E-3
+.CLM CHA NOEUD 2 C 2 V 5000
+.FCT
+ I 1 EXPR "30*T"
+.SAM TYPE {sam}
+.SUB TF 0.002 H 0.0005
+.FIN
+""",
+        tmp_path,
+    )
+
+    def moment(w: float) -> float:
+        return 0.04 * w - coefficient * 0.01 * math.hypot(w * math.tan(math.radians(20)), 5000 + w)
+
+    low, high = 0.0, 1000.0
+    for _ in range(100):
+        low, high = ((low + high) / 2, high) if moment((low + high) / 2) < 0 else (low, (low + high) / 2)
+    assert found["1/DRIVE_TORQUE"] == pytest.approx(0.02 * low, rel=1e-6)

@@ -218,6 +218,10 @@ bool has_friction(const Assembler& assembler, int multiplier) {
   return part >= 0 && assembler.model().part(part).element->layout().has_friction();
 }
 
+/// Constraints that steps close to their tolerance leave dependent ones open, and their gradients independent, by a few times as
+/// much.
+constexpr double as_exact = 10;
+
 constexpr const char* usual_cure =
     "leave one of these directions free in one of the joints, or give it a stiffness instead (KM for teeth)";
 
@@ -297,17 +301,27 @@ bool Redundancy::analyse(const Configuration& c, double tolerance) {
   return before != mobility_.dependent;
 }
 
+bool Redundancy::renew(const Configuration& c) {
+  constexpr double most = 1e-4;
+  const double open = relative_open(assembler_, assembler_.violations(c)).lpNorm<Eigen::Infinity>();
+  return analyse(c, std::clamp(as_exact * open, rank_tolerance, most));
+}
+
 std::string Redundancy::conflict(const Configuration& c) {
   if (!active()) return {};
   const std::vector<double> phi = assembler_.violations(c);
   const Vector relative = relative_open(assembler_, phi);
   const Numbering& numbering = assembler_.numbering();
-  for (const RedundantGroup& one : mobility_.groups)
+  const auto is_released = [&](int m) { return std::binary_search(mobility_.dependent.begin(), mobility_.dependent.end(), m); };
+  for (const RedundantGroup& one : mobility_.groups) {
+    double closed = consistent;
+    for (const int m : one.members)
+      if (!is_released(m)) closed = std::max(closed, as_exact * relative[m]);
     for (const int m : one.members) {
       const double open = phi[static_cast<std::size_t>(m)];
-      if (!std::binary_search(mobility_.dependent.begin(), mobility_.dependent.end(), m)) continue;
+      if (!is_released(m)) continue;
       const Unknown& u = numbering.multiplier(m);
-      if (relative[m] <= consistent || is_grip(assembler_.model(), u)) continue;  // a grip gives way (Grips)
+      if (relative[m] <= closed || is_grip(assembler_.model(), u)) continue;  // a grip gives way (Grips)
       const bool length = u.measure == Measure::length;
       return fmt::format("conflicting constraints: {} stays open by {:.3g} {} when the others are closed; {} among {}: {}",
                          numbering.describe(numbering.equation(u.slot)), std::abs(open),
@@ -315,6 +329,7 @@ std::string Redundancy::conflict(const Configuration& c) {
                          counted(one.redundant, "constraint") + " too many", names(assembler_, at_start_of_step(c), one.members),
                          cure_of(one));
     }
+  }
   return {};
 }
 
@@ -388,7 +403,28 @@ std::vector<Vector> Redundancy::undetermined(const Configuration& c) {
   return changes;
 }
 
-bool Redundancy::share(Configuration& c) {
+bool Redundancy::turn_flanks(const Configuration& here, const Vector& weight, const Vector& forces, Vector& least) const {
+  const auto is_tooth = [&](int m) {
+    return multiplier_of(assembler_.model(), assembler_.numbering().multiplier(m)).role == Role::tooth;
+  };
+  const auto any_tooth = [&](const RedundantGroup& one) { return std::any_of(one.members.begin(), one.members.end(), is_tooth); };
+  if (std::none_of(mobility_.groups.begin(), mobility_.groups.end(), any_tooth)) return false;
+  const ConstraintMatrix gradients(assembler_, here, ConstraintColumns::gradients);
+  const Vector even =
+      RowSpace(with_columns_scaled(gradients.matrix, weight.cwiseInverse()), rank_tolerance, gradients.rows.first_rows)
+          .part(forces);
+  constexpr double significant = 1e-9;
+  const double least_counted = significant * forces.lpNorm<Eigen::Infinity>();
+  const auto turns = [&](int m) { return is_tooth(m) && even[m] * least[m] < 0 && std::abs(least[m]) > least_counted; };
+  for (const RedundantGroup& one : mobility_.groups)
+    if (std::any_of(one.members.begin(), one.members.end(), turns)) {
+      least = even;
+      return true;
+    }
+  return false;
+}
+
+bool Redundancy::share(Configuration& c, bool last) {
   if (!active()) return false;
   const Configuration here = at_start_of_step(c);
   const double extent = assembler_.model().extent();
@@ -397,8 +433,10 @@ bool Redundancy::share(Configuration& c) {
   const Vector forces = Eigen::Map<const Vector>(c.multipliers.data(), weight.size()).cwiseProduct(weight);
   if (forces.isZero(0)) return false;
   const ConstraintMatrix columns(assembler_, here, columns_kind());
-  const Vector least =
+  Vector least =
       RowSpace(with_columns_scaled(columns.matrix, weight.cwiseInverse()), rank_tolerance, columns.rows.first_rows).part(forces);
+  constexpr int most_turns = 4;
+  turns_ = !last && turns_ < most_turns && turn_flanks(here, weight, forces, least) ? turns_ + 1 : 0;
   Configuration shared = here;
   Eigen::Map<Vector>(shared.multipliers.data(), weight.size()) = least.cwiseQuotient(weight);
   const Vector changed = change_of_forces(assembler_, here, shared);

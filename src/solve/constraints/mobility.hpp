@@ -65,6 +65,9 @@ class Redundancy {
   /// Analyses the constraints at `c` and releases the dependent ones; true if they differ from those released before.
   bool analyse(const Configuration& c, double tolerance = rank_tolerance);
 
+  /// The same within a run, where constraints are as closed as steps leave them.
+  bool renew(const Configuration& c);
+
   /// Empty if the released constraints are closed at `c`; otherwise says which of them conflict, and by how much.
   std::string conflict(const Configuration& c);
   /// Says which released constraints conflict in their rates (Assembler::constraint_rates), beside `speed`; empty if none does.
@@ -72,8 +75,10 @@ class Redundancy {
 
   /// Replaces the multipliers of `c` by the smallest ones (forces, and moments over the extent, in the mean square) with the
   /// same effect on all that moves, friction apart. True if other forces depend on them, as friction does, so that the balance
-  /// must be solved again with the released multipliers as they are now.
-  bool share(Configuration& c);
+  /// must be solved again with the released multipliers as they are now. Where teeth change flank, so does the direction of their
+  /// force, and forces of either flank may be the smallest of their kind: those of the flanks that turn_flanks() finds are taken.
+  /// `last`: no balance follows, so that flanks stay as they are.
+  bool share(Configuration& c, bool last = false);
 
   /// Forces and moments that could be added to the multipliers of `c` without any effect on what moves: reactions changed by
   /// these are not unique. Returns two combinations of all that there are, so that what one leaves unchanged by chance the
@@ -85,6 +90,12 @@ class Redundancy {
   void load(const Snapshot& snapshot);
 
  private:
+  /// Takes the smallest multipliers with the same effect through the gradients of the constraints, on which flanks have no
+  /// influence, if they press other flanks than `least`. Their separating forces are still to be balanced.
+  /// (docs/decisions/0046-flanks-of-redundant-teeth.md)
+  bool turn_flanks(const Configuration& here, const Eigen::VectorXd& weight, const Eigen::VectorXd& forces,
+                   Eigen::VectorXd& least) const;
+
   /// Columns by which multipliers are combined: the forces that they cause, or, where friction depends on those that are not
   /// unique, the gradients of the constraints. Self-stress that changes friction has an effect, and would stay as it has come
   /// about.
@@ -96,6 +107,7 @@ class Redundancy {
   Assembler& assembler_;
   const MotionSlots& motion_;
   Mobility mobility_;
+  int turns_ = 0;  ///< calls of share() up to the last that have turned flanks: each comes nearer, and a few are enough
 };
 
 }  // namespace engrane::solve

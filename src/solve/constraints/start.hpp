@@ -138,6 +138,10 @@ class Start {
   /// that at `c`: a law may end on the way there, and after the loss of a contact would close it again. False if it does not
   /// converge.
   bool balance_softly(Configuration& c, double give, StartReport* report, const MasslessMotions* massless);
+  /// One pass of balance_accelerations: changes `a`, the accelerations, and the multipliers until forces balance with reactions
+  /// shared as they are, in iterations from `iteration` to `end`. Returns whether they do; `right` is then what is left.
+  bool balance_as_shared(Configuration& c, std::vector<double>& a, std::vector<double>& right, int& iteration, int end,
+                         StartReport* report, const MasslessMotions* massless);
   /// Solves the balance with the assembled matrix: returns the changes of accelerations, and adds those of multipliers to `c`.
   std::vector<double> solve_balance(std::vector<double>& right, Configuration& c, const MasslessMotions* massless);
   /// Whether the accelerations of `c` lead so far in a step of h that forces change by more than those of a vibration of period

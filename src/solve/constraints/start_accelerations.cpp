@@ -322,7 +322,7 @@ bool Start::balance_softly(Configuration& c, double give, StartReport* report, c
     if (change == 0 || (iteration > 1 && change >= 0.5 * before)) break;
     last = std::move(found);
   }
-  redundancy_.share(c);
+  redundancy_.share(c, true);
   return change <= settled * largest(last);
 }
 
@@ -330,29 +330,45 @@ void Start::balance_accelerations(Configuration& c, int most_iterations, StartRe
   std::vector<double> a = motion_.accelerations(c);
   motion_.prescribe_accelerations(c.time, a);
   motion_.set_accelerations(a, c);
-  double before = std::numeric_limits<double>::infinity();
-  // linear but for forces that depend on the multipliers (|λ| of the separating force), hence a short iteration
-  for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    std::vector<double> right = out_of_balance(c, massless);
+  // once is enough where forces depend linearly on the multipliers
+  constexpr int most_passes = 6;
+  int iteration = 0;
+  for (int pass = 0; pass < most_passes; ++pass) {
+    std::vector<double> right;
+    const bool balanced = balance_as_shared(c, a, right, iteration, iteration + most_iterations, report, massless);
+    if (redundancy_.share(c, pass + 1 == most_passes)) continue;
+    if (balanced) verify_balance(c, right);
+    return;
+  }
+}
+
+bool Start::balance_as_shared(Configuration& c, std::vector<double>& a, std::vector<double>& right, int& iteration, int end,
+                              StartReport* report, const MasslessMotions* massless) {
+  const int begin = iteration;
+  // linear but for forces that depend on the multipliers (|λ| of the separating force), hence a short iteration; where λ changes
+  // its sign, it may lead away once or twice
+  constexpr double rounding = 1e-10;
+  constexpr int most_idle = 2;
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  int idle = 0;
+  for (; iteration < end; ++iteration) {
+    right = out_of_balance(c, massless);
     const double size = largest(right);
     if (report) note_accelerations(assembler_, c, iteration, *report);
     if (!std::isfinite(size)) throw SolutionFailure("the forces at the start are not finite");
-    if (size == 0 || (iteration > 1 && size >= 0.5 * before)) {
-      if (!redundancy_.share(c)) {
-        verify_balance(c, right);
-        return;
-      }
-      before = std::numeric_limits<double>::infinity();
-      continue;
-    }
-    before = size;
+    if (size == 0) return true;
+    most = std::max(most, size);
+    idle = size < 0.5 * least ? 0 : idle + 1;
+    least = std::min(least, size);
+    if (iteration > begin + 1 && idle > (size <= rounding * most ? 0 : most_idle)) return true;
     // without multipliers nothing in the matrix depends on the unknowns
-    if (iteration == 0 || !c.multipliers.empty()) assembler_.projection(c, Assembler::Metric::dynamic, {}, assembler_.matrix());
+    if (iteration == begin || !c.multipliers.empty())
+      assembler_.projection(c, Assembler::Metric::dynamic, {}, assembler_.matrix());
     const std::vector<double> change = solve_balance(right, c, massless);
     for (std::size_t i = 0; i < a.size(); ++i) a[i] += change[i];
     motion_.set_accelerations(a, c);
   }
-  redundancy_.share(c);
+  return false;
 }
 
 }  // namespace engrane::solve

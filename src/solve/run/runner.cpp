@@ -154,7 +154,7 @@ std::vector<ValueAndRate> Runner::speeds_so_far() const {
 bool Runner::over() const { return scheme_.course() ? scheme_.course()->arrived : now_.time >= options_.end; }
 
 bool Runner::renew(const NewtonReport& report) {
-  if ((!report.singular && !report.conflict) || renewed_ || !context_.redundancy.analyse(now_)) return false;
+  if ((!report.singular && !report.conflict) || renewed_ || !context_.redundancy.renew(now_)) return false;
   renewed_ = true;
   return true;
 }

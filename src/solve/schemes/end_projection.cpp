@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
 
 #include "solve/schemes/snapshot_part.hpp"
 
@@ -79,24 +80,31 @@ bool EndProjection::fit_accelerations(Configuration& c, const MasslessMotions* m
   auto a = context_.motion.accelerations(c);
   // one correction if forces are linear in these
   double before = std::numeric_limits<double>::infinity(), first = 0;
-  bool settled = false;
+  bool settled = false, begun = false;
+  const auto shares = [&](int corrections) {
+    constexpr int needed = 3;
+    if (!context_.redundancy.share(c, corrections + needed > most_corrections)) return false;
+    // the forces that the matrix holds are those of the multipliers before
+    before = std::numeric_limits<double>::infinity();
+    fits_ = begun = false;
+    return true;
+  };
   for (int k = 0; k < most_corrections; ++k) {
-    if (settled && !context_.redundancy.share(c)) break;
+    if (settled && !shares(k)) break;
     settled = false;
     right_side_ = context_.start.out_of_balance(c, massless);
     const double size = largest(right_side_);
     if (!std::isfinite(size)) return false;
-    if (k == 0) first = size;
+    if (!std::exchange(begun, true)) first = size;
     const bool balanced = size <= left_open * first;
     if (!balanced && !fits_ && size > slow_balance * before) {
       renew(c);
     } else if (balanced || (k > 0 && size >= 0.5 * before)) {
-      if (!context_.redundancy.share(c)) {
+      if (!shares(k)) {
         // reports friction that jams
         if (!balanced && has_friction_) context_.start.balance_accelerations(c, most_corrections, nullptr, massless);
         break;
       }
-      before = std::numeric_limits<double>::infinity();
       continue;
     }
     before = size;

@@ -46,7 +46,12 @@ bool Radau::restore_balance(Configuration& c) {
       return false;
     }
   }
-  context_.redundancy.share(c);
+  constexpr int most_passes = 4;
+  for (int pass = 1; pass <= most_passes && context_.redundancy.share(c, pass == most_passes); ++pass)
+    if (!balance_near(c, most_balance_corrections)) {
+      c = before;
+      return false;
+    }
   return true;
 }
 

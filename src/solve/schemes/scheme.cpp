@@ -88,12 +88,13 @@ NewtonReport Scheme::solve(Vec unknowns, Weights weights, const Newton::Apply& a
   NewtonReport report;
   int iterations = 0;
   // once is enough where forces depend linearly on the multipliers
-  for (int pass = 0; pass < 10; ++pass) {
+  constexpr int most_passes = 10;
+  for (int pass = 1; pass <= most_passes; ++pass) {
     report = context_.newton.solve(unknowns, weights, keep, apply, to, border);
     iterations += report.iterations;
     if (!report.converged || !context_.redundancy.active()) break;
     if (refuse_conflict(to, report)) break;
-    if (!context_.redundancy.share(to)) break;
+    if (!context_.redundancy.share(to, pass == most_passes)) break;
     const auto all = context_.assembler.gather(unknowns);
     std::vector<double> shared(all.begin(), all.end());
     context_.assembler.multipliers_to_unknowns(to, shared);
