@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Reads the mesh of an Abaqus input file: *NODE, *ELEMENT, *NSET, *ELSET, *SURFACE, *INCLUDE. Everything else
 is passed over. Faces of a surface become cells of their own, as other programs write them, and a surface of
-nodes a group of nodes."""
+nodes a group of nodes. Numbers and names of an assembly are other ones than those of its part."""
 
 from __future__ import annotations
 
@@ -42,6 +42,8 @@ GENERATED = dict.fromkeys(("NGEN", "NFILL", "NCOPY", "NMAP"), "makes nodes from 
 GENERATED |= dict.fromkeys(("ELGEN", "ELCOPY"), "makes elements from others")
 BASIC = {"tetra10": "tetra", "wedge15": "wedge", "hexahedron20": "hexahedron", "triangle6": "triangle"}
 BASIC |= {"quad8": "quad"}
+#: what labels and keys of an assembly begin with
+OF_ASSEMBLY, ASSEMBLY = 10**12, "*ASSEMBLY*"
 
 
 @dataclass
@@ -58,16 +60,48 @@ class _Section:
 
 @dataclass
 class _Found:
-    """What has been read so far. Sets hold labels."""
+    """What has been read so far. Sets hold labels; labels and keys of the assembly are marked as such."""
 
     labels: list[np.ndarray] = field(default_factory=list)
     points: list[np.ndarray] = field(default_factory=list)
     blocks: list[tuple[str, np.ndarray, np.ndarray]] = field(default_factory=list)  # kind, labels, nodes
     node_sets: dict[str, list[np.ndarray]] = field(default_factory=dict)
     cell_sets: dict[str, list[np.ndarray]] = field(default_factory=dict)
-    surfaces: dict[str, list[tuple[str, str]]] = field(default_factory=dict)
+    surfaces: dict[str, list[tuple[np.ndarray, str]]] = field(default_factory=dict)
     node_surfaces: dict[str, list[np.ndarray]] = field(default_factory=dict)
     spelling: dict[str, str] = field(default_factory=dict)
+    instance: str = ""  #: the name of the one instance
+    in_assembly: bool = False  #: outside of its instance
+    notes: list[str] = field(default_factory=list)
+
+    def label(self, numbers: np.ndarray, section: _Section) -> np.ndarray:
+        """Numbers as a section of this place has them."""
+        own = self.in_assembly and "INSTANCE" not in section.parameters
+        return numbers + OF_ASSEMBLY if own else numbers
+
+    def key(self, name: str) -> str:
+        """Of a name that is given here."""
+        key = (ASSEMBLY if self.in_assembly else "") + name.upper()
+        self.spelling.setdefault(key, name)
+        return key
+
+    def refer(
+        self, word: str, sets: dict[str, list[np.ndarray]], section: _Section
+    ) -> list[np.ndarray] | None:
+        """Labels by a number or the name of a set, which may name its instance; None if there is none."""
+        whole, dot, rest = word.upper().rpartition(".")
+        if dot and whole == self.instance.upper():
+            return [np.array([int(rest)])] if rest.isdigit() else sets.get(rest)
+        if word.isdigit():
+            return [self.label(np.array([int(word)]), section)]
+        own = self.in_assembly and "INSTANCE" not in section.parameters
+        return sets.get(ASSEMBLY + word.upper(), sets.get(word.upper())) if own else sets.get(word.upper())
+
+    def names(self) -> dict[str, str]:
+        """Of the groups, by key: a name of the part that the assembly has too begins with the instance."""
+        twice = {key for key in self.spelling if ASSEMBLY + key in self.spelling}
+        prefix = f"{self.instance}." if self.instance else "part."
+        return {key: prefix * (key in twice) + name for key, name in self.spelling.items()}
 
 
 def read(path: str | Path) -> RawMesh:
@@ -83,17 +117,26 @@ def read(path: str | Path) -> RawMesh:
         )
     for section in sections:
         _take(section, found, path)
+    found.spelling = found.names()
     if not found.points or not found.blocks:
         raise UserError(f"{path} has no *NODE and *ELEMENT.")
-    labels = np.concatenate(found.labels)
-    labels, last = np.unique(labels[::-1], return_index=True)  # a node given twice: the later holds
-    points = np.concatenate(found.points)[::-1][last]
+    given, places = np.concatenate(found.labels)[::-1], np.concatenate(found.points)[::-1]
+    labels, last, same = np.unique(given, return_index=True, return_inverse=True)
+    points = places[last]
+    if (moved := (places != points[same]).any(axis=1)).any():
+        found.notes.append(
+            f"node {given[moved][-1] % OF_ASSEMBLY} is given at two places; the later one counts"
+        )
+    cells, times = np.unique(np.concatenate([b[1] for b in found.blocks]), return_counts=True)
+    if (twice := cells[times > 1]).size:
+        raise UserError(f"{path}: element {twice[0] % OF_ASSEMBLY} is given twice.")
 
     def rows(wanted: np.ndarray, who: str) -> np.ndarray:
         place = np.minimum(np.searchsorted(labels, wanted), len(labels) - 1)
         unknown = wanted[labels[place] != wanted]
         if unknown.size:
-            raise UserError(f"{path}: {who} names node {unknown.flat[0]}, which has no *NODE.")
+            number = unknown.flat[0] % OF_ASSEMBLY
+            raise UserError(f"{path}: {who} names node {number}, which has no *NODE.")
         return place
 
     blocks = [(kind, rows(nodes, "*ELEMENT")) for kind, _, nodes in found.blocks]
@@ -118,6 +161,7 @@ def read(path: str | Path) -> RawMesh:
         [RawCells(kind, nodes) for kind, nodes in blocks],
         point_sets=point_sets,
         cell_sets=cell_sets,
+        notes=found.notes,
     )
 
 
@@ -198,6 +242,11 @@ def _sections(path: Path, depth: int) -> Iterator[_Section]:
 
 def _take(section: _Section, found: _Found, path: Path) -> None:
     p = section.parameters
+    if section.keyword in ("ASSEMBLY", "END INSTANCE"):
+        found.in_assembly = True
+    elif section.keyword in ("INSTANCE", "END ASSEMBLY"):
+        found.in_assembly = False
+        found.instance = p.get("NAME", found.instance)
     if section.keyword in GENERATED or (section.keyword == "SYSTEM" and section.lines):
         what = GENERATED.get(section.keyword, "moves or turns nodes")
         raise UserError(
@@ -207,41 +256,42 @@ def _take(section: _Section, found: _Found, path: Path) -> None:
     if section.keyword == "NODE" and section.lines:
         labels, coordinates = _nodes(section.lines)
         coordinates = _cartesian(coordinates, p.get("SYSTEM", "R").upper())
-        found.labels.append(labels)
+        found.labels.append(found.label(labels, section))
         found.points.append(coordinates)
         _into(found, found.node_sets, p.get("NSET"), [found.labels[-1]])
     elif section.keyword == "ELEMENT" and section.lines:
         kind, nodes = _kind(p.get("TYPE", "").upper())
         if not nodes:  # not a mesh's: springs, masses, connectors
             nodes = section.lines[0].rstrip().rstrip(",").count(",")
-        data = section.integers()
+        data = _integers(section, found)
         if nodes < 1 or len(data) % (nodes + 1):
             raise UserError(
                 f"{path}: *ELEMENT, TYPE={p.get('TYPE', '')} has {len(data)} numbers, which are no rows of "
                 f"a label and {nodes} nodes."
             )
-        data = data.reshape(-1, nodes + 1)
+        data = found.label(data.reshape(-1, nodes + 1), section)
         nodes = data[:, [1, 3, 2]] if kind == "line3" else data[:, 1:]  # the middle stands between the ends
         found.blocks.append((kind, data[:, 0], nodes))
         _into(found, found.cell_sets, p.get("ELSET"), [data[:, 0]])
     elif section.keyword in ("NSET", "ELSET") and section.keyword in p:
         sets = found.node_sets if section.keyword == "NSET" else found.cell_sets
-        _into(found, sets, p[section.keyword], _members(section, sets, path))
+        _into(found, sets, p[section.keyword], _members(section, sets, found, path))
+    elif section.keyword == "SURFACE" and "COMBINE" in p:
+        found.notes.append(f"*SURFACE {p.get('NAME', '')} combines others, which is not read")
     elif section.keyword == "SURFACE" and "NAME" in p and p.get("TYPE", "ELEMENT").upper() == "ELEMENT":
-        rows = [[w.strip().strip('"') for w in s.split(",")] for s in section.lines]
-        found.spelling.setdefault(p["NAME"].upper(), p["NAME"])
-        found.surfaces.setdefault(p["NAME"].upper(), []).extend(
-            (r[0].upper(), r[1].upper()) for r in rows if len(r) > 1
-        )
+        rows = [[w.strip().strip('"') for w in [*s.split(","), ""][:2]] for s in section.lines]
+        for who, face in rows:
+            members = found.refer(who, found.cell_sets, section)
+            labels = np.concatenate(members) if members else np.zeros(0, int)
+            found.surfaces.setdefault(found.key(p["NAME"]), []).append((labels, face.upper()))
     elif section.keyword == "SURFACE" and "NAME" in p and p["TYPE"].upper() == "NODE":
         # nodes or sets of nodes, each with an area at most
         firsts = [line.partition(",")[0].strip().strip('"') for line in section.lines]
-        found.spelling.setdefault(p["NAME"].upper(), p["NAME"])
         for word in firsts:
-            if not word.isdigit() and word.upper() not in found.node_sets:
+            members = found.refer(word, found.node_sets, section)
+            if members is None:
                 raise UserError(f"{path}: *SURFACE names {word}, which is no set of nodes before it.")
-            members = [np.array([int(word)])] if word.isdigit() else found.node_sets[word.upper()]
-            found.node_surfaces.setdefault(p["NAME"].upper(), []).extend(members)
+            found.node_surfaces.setdefault(found.key(p["NAME"]), []).extend(members)
 
 
 def _nodes(lines: list[str]) -> tuple[np.ndarray, np.ndarray]:
@@ -270,25 +320,49 @@ def _cartesian(table: np.ndarray, system: str) -> np.ndarray:
 
 def _into(found: _Found, sets: dict[str, list[np.ndarray]], name: str | None, more: list[np.ndarray]) -> None:
     if name:
-        found.spelling.setdefault(name.upper(), name)
-        sets.setdefault(name.upper(), []).extend(more)
+        sets.setdefault(found.key(name), []).extend(more)
 
 
-def _members(section: _Section, sets: dict[str, list[np.ndarray]], path: Path) -> list[np.ndarray]:
-    """Labels of a set: numbers, ranges, names of other sets."""
+def _integers(section: _Section, found: _Found) -> np.ndarray:
+    """The numbers of an element's lines; nodes of the instance may be written as P-1.3."""
+    try:
+        return section.integers()
+    except ValueError:
+        words = ",".join(section.lines).replace(",", " ").split()
+        of_part = [w.upper().startswith(f"{found.instance.upper()}.") for w in words]
+        numbers = np.array(
+            [w[len(found.instance) + 1 :] if o else w for w, o in zip(words, of_part, strict=True)]
+        )
+        # label() adds the same to all
+        return numbers.astype(np.int64) - OF_ASSEMBLY * np.array(of_part)
+
+
+def _members(
+    section: _Section, sets: dict[str, list[np.ndarray]], found: _Found, path: Path
+) -> list[np.ndarray]:
+    """Labels of a set: numbers, ranges, names of other sets, the nodes of a set of elements."""
     if "GENERATE" in section.parameters:
         out = []
         for line in section.lines:
             low, high, *step = (int(w) for w in line.rstrip().rstrip(",").split(","))
-            out.append(np.arange(low, high + 1, step[0] if step else 1))
+            out.append(found.label(np.arange(low, high + 1, step[0] if step else 1), section))
         return out
     words = " ".join(section.lines).replace(",", " ").split()
-    names = [w for w in words if not w.isdigit()]
-    unknown = [n for n in names if n.upper() not in sets]
-    if unknown:
-        raise UserError(f"{path}: *{section.keyword} names {unknown[0]}, which is no set before it.")
     numbers = np.array([w for w in words if w.isdigit()], np.int64)
-    return [numbers, *(m for n in names for m in sets[n.upper()])]
+    out = [found.label(numbers, section)]
+    for word in (w for w in words if not w.isdigit()):
+        members = found.refer(word, sets, section)
+        if members is None:
+            raise UserError(f"{path}: *{section.keyword} names {word}, which is no set before it.")
+        out += members
+    if section.keyword == "NSET" and "ELSET" in section.parameters:
+        word = section.parameters["ELSET"]
+        cells = found.refer(word, found.cell_sets, section)
+        if cells is None:
+            raise UserError(f"{path}: *NSET names {word}, which is no set of elements before it.")
+        wanted = np.concatenate(cells)
+        out += [np.unique(nodes[np.isin(labels, wanted)]) for _, labels, nodes in found.blocks]
+    return out
 
 
 def _kind(word: str) -> tuple[str, int]:
@@ -309,23 +383,32 @@ def _kind(word: str) -> tuple[str, int]:
 
 def _add_surface(
     name: str,
-    faces: list[tuple[str, str]],
+    faces: list[tuple[np.ndarray, str]],
     found: _Found,
     blocks: list[tuple[str, np.ndarray]],
     cell_sets: dict[str, list[np.ndarray]],
 ) -> None:
-    """The faces as cells of their corners, in a group with the name of the surface."""
+    """The faces as cells of their corners, in a group with the name of the surface. Without a face: all faces
+    of the solids that no other solid shares."""
     corners: dict[int, list[np.ndarray]] = {}
-    for who, face in faces:
-        wanted = np.array([int(who)]) if who.isdigit() else np.concatenate(found.cell_sets.get(who, [[]]))
+    spelled = found.spelling[name]
+    own_blocks = blocks[: len(found.blocks)]
+    for wanted, face in faces:
         k = int(face[1:]) if face[:1] == "S" and face[1:].isdigit() else 0
-        for (kind, labels, _), (_, nodes) in zip(found.blocks, blocks, strict=False):
+        if not face:
+            exposed = _exposed(wanted, found, own_blocks)
+            if not exposed:
+                found.notes.append(
+                    f"*SURFACE {spelled} has rows without a face, which are read of solids only"
+                )
+            for size, rows in exposed.items():
+                corners.setdefault(size, []).append(rows)
+        for (kind, labels, _), (_, nodes) in zip(found.blocks, own_blocks, strict=True):
             loops = FACES.get(BASIC.get(kind, kind), ())
             mine = np.isin(labels, wanted)
             if 1 <= k <= len(loops) and mine.any():
                 loop = list(loops[k - 1])
                 corners.setdefault(len(loop), []).append(nodes[mine][:, loop])
-    spelled = found.spelling[name]
     if not corners:  # an empty group, to be told of
         cell_sets.setdefault(spelled, [np.zeros(0, int) for _ in blocks])
     for size, rows in corners.items():
@@ -336,3 +419,24 @@ def _add_surface(
         own += [np.zeros(0, int)] * (len(blocks) + 1 - len(own))
         own[-1] = np.arange(len(block[1]))
         blocks.append(block)
+
+
+def _exposed(
+    wanted: np.ndarray, found: _Found, blocks: list[tuple[str, np.ndarray]]
+) -> dict[int, np.ndarray]:
+    """By their number of corners, the faces of these solids that belong to no other solid."""
+    faces: dict[int, list[np.ndarray]] = {}
+    mine: dict[int, list[np.ndarray]] = {}
+    for (kind, labels, _), (_, nodes) in zip(found.blocks, blocks, strict=True):
+        for loop in FACES.get(BASIC.get(kind, kind), ()):
+            if len(loop) < 3:
+                break  # a plane cell
+            faces.setdefault(len(loop), []).append(nodes[:, list(loop)])
+            mine.setdefault(len(loop), []).append(np.isin(labels, wanted))
+    exposed = {}
+    for size, rows in faces.items():
+        table, own = np.concatenate(rows), np.concatenate(mine[size])
+        _, same, count = np.unique(np.sort(table, axis=1), axis=0, return_inverse=True, return_counts=True)
+        if (free := own & (count[same.ravel()] == 1)).any():
+            exposed[size] = table[free]
+    return exposed

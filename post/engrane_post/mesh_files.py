@@ -44,6 +44,8 @@ TAGS = {
     "part": "part",
 }
 HINTS = {
+    "but len(point_data[": "it holds fields over some of its nodes only, which meshio cannot place: "
+    "write the mesh alone",
     "Incompatible cell data. Cell block": "it holds fields over its cells, which meshio cannot sort: "
     "write the mesh alone",
     "Incompatible cell data 'gmsh:physical'": "some cells are in no physical group: save the mesh without "
@@ -267,19 +269,40 @@ def _tagged_cells(source: Any, mesh: FileMesh) -> None:
         for name, v in source.field_data.items()
         if len(v) == 2 and all(isinstance(n, int | np.integer) for n in v)
     }
+    if mesh.path.suffix.lower() == ".msh":
+        names |= _physical_names(mesh.path)
+    said = {name for name, sets in source.cell_sets.items() if any(len(_indices(m)) for m in sets)}
     for key, word in TAGS.items():
+        # in files of some kinds 0 says that a cell has no group
+        others = any(np.any(np.asarray(tags) != 0) for tags in data.get(key, ()))
+        counts_from_zero = word == "property" or (":" not in key and others)
         for b, tags in enumerate(data.get(key, ())):
             tags = np.asarray(tags)
+            if tags.ndim == 2 and tags.shape[1] == 1:  # SCALARS of VTK
+                tags = tags[:, 0]
             if tags.ndim != 1 or not np.issubdtype(tags.dtype, np.integer):
                 continue
             dimension = dimension_of(mesh.blocks[b][0])
             for tag in np.unique(tags):
-                name = names.get((int(tag), dimension), f"{word} {tag}")
+                # of a negative number the orientation is reversed (Gmsh)
+                name = names.get((abs(int(tag)), dimension), f"{word} {tag}")
                 # sets of the same name say it better: a cell may be in several
-                if (tag == 0 and word != "property") or name in source.cell_sets:
+                if (tag == 0 and not counts_from_zero) or name in said:
                     continue
                 found = mesh.cell_groups.setdefault(name, [np.zeros(0, int) for _ in mesh.blocks])
                 found[b] = np.union1d(found[b], np.flatnonzero(tags == tag))
+
+
+def _physical_names(path: Path) -> dict[tuple[int, int], str]:
+    """Of Gmsh, by number and dimension. meshio keeps one of several dimensions that have the same name."""
+    raw = path.read_bytes()
+    begin, end = raw.find(b"$PhysicalNames"), raw.find(b"$EndPhysicalNames")
+    if not 0 <= begin < end:
+        return {}
+    rows = re.findall(
+        r'^\s*(\d)\s+(\d+)\s+"(.*)"\s*$', raw[begin:end].decode("utf-8", "replace"), re.MULTILINE
+    )
+    return {(int(number), int(dimension)): name for dimension, number, name in rows}
 
 
 def _families(source: Any, mesh: FileMesh) -> None:

@@ -131,7 +131,8 @@ std::string Reading::assumptions() const {
   for (const deck::Record& record : deck.records)
     if (record.get<deck::SteppingCard>()) return {};
   if (has_cells(model) && model.commands.stepping.step == model.commands.stepping.end)
-    return "the deck has no analysis: linear statics";
+    return deck::has_small_displacements(deck.records) ? "the deck has no analysis: linear statics"
+                                                       : "the deck has no analysis: statics with large displacements";
   const deck::SteppingCard& s = model.commands.stepping;
   return fmt::format("the deck has no .SUB: t = {:g} to {:g} in steps of {:g}", s.start, s.end, s.step);
 }

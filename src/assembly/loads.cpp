@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "assembly/loads.hpp"
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -32,6 +33,19 @@ bool applied(const Element& element, State state, std::vector<double>& forces, s
 }
 
 }  // namespace
+
+bool any_loads(const Assembler& assembler, const Configuration& c) {
+  std::vector<double> forces, scratch;
+  int any = 0;
+  for (const int p : assembler.own_parts()) {
+    const Element& element = *assembler.model().part(p).element;
+    forces.assign(static_cast<std::size_t>(element.layout().slots()), 0.0);
+    if (any == 0 && applied(element, assembler.view(p, c), forces, scratch))
+      any = std::any_of(forces.begin(), forces.end(), [](double force) { return force != 0; });
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, assembler.comm());
+  return any != 0;
+}
 
 LoadSum sum_loads(const Assembler& assembler, const Configuration& c) {
   const Model& model = assembler.model();

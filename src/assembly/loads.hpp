@@ -16,6 +16,9 @@ struct LoadSum {
   double work = 0;
 };
 
+/// Whether a load, a pressure or a weight acts. Collective.
+bool any_loads(const Assembler& assembler, const Configuration& c);
+
 /// On every rank; each evaluates its own elements. Collective.
 LoadSum sum_loads(const Assembler& assembler, const Configuration& c);
 

@@ -131,3 +131,89 @@ def test_a_load_on_what_hardly_changes_its_volume(sam: str, tmp_path: Path) -> N
     for channel in ("UY", "UZ"):
         mean = np.mean([expected[f"node/{i + 1}/{channel}"][-1] for i in end])
         assert found[f"node/900/{channel}"][-1] == pytest.approx(mean, rel=1e-5)
+
+
+# a plane cell, linked to node 10, which turns about y on a spring, out of the plane of the cell
+TILTED = """
+.NOE
+ I 1 X 1 -0.5
+ I 2 X 2 -0.5
+ I 3 X 2 0.5
+ I 4 X 1 0.5
+ I 10
+.MAI
+ I 1 N 1 2 3 4
+.HYP MEMB BIDIM
+.SEL
+ GROUP 1 NOM "all" MAILLES TOUT
+ GROUP 2 NOM "left" NOEUDS 1 4
+ GROUP 3 NOM "right" NOEUDS 2 3
+.PHP GROUP "all" THICK 1
+.MAT I 1 YT 1E6 NT 0 M 1
+.AEL GROUP "all" MAT 1
+.MCE
+ I 11 {link} N 10 GROUP "left"
+ I 12 HINGE N 0 10 AXIS 0 1 0
+ I 13 TSPRING N 0 10 AXIS 0 1 0 K 100
+.FCT I 1 TABLE 0 0 1 1
+.CLM
+ NOEUD 1 2 3 4 FIX C 2
+ GROUP "right" CHA C 1 V 25 NF 1
+ NOEUD 10 CHA C 5 V 10 NF 1
+.SAM TYPE STATIC
+.SUB TF 1 H 0.1
+.FIN
+"""
+
+
+@pytest.mark.parametrize("link", ["RIGID_LINK", "MEAN_LINK"])
+def test_a_link_of_plane_cells_turns_out_of_their_plane(link: str, tmp_path: Path) -> None:
+    """The cells stay in their plane: the constraint is cos θ x = 1, with a force of 50/cos θ."""
+    found = run(TILTED.format(link=link), tmp_path)
+    low, high = 0.0, 0.5
+    for _ in range(60):
+        turn = (low + high) / 2
+        low, high = (turn, high) if 100 * turn - 50 * np.sin(turn) / np.cos(turn) ** 2 < 10 else (low, turn)
+    assert found["node/10/RY"][-1] == pytest.approx(low, rel=1e-9)
+    assert found["node/1/UX"][-1] == pytest.approx(1 / np.cos(low) - 1, rel=1e-8)
+
+
+@pytest.mark.parametrize("link", ["RIGID_LINK", "RIGID"])
+def test_a_link_holds_a_sheet_in_all_directions(link: str, tmp_path: Path) -> None:
+    """A membrane of `.MAI` in the x-z plane, linked along its upper edge and pulled along z: F/(EA/L + K)."""
+    links = (
+        'I 11 RIGID_LINK N 9 GROUP "top"' if link == "RIGID_LINK" else "I 11 RIGID N 9 3\n I 15 RIGID N 9 4"
+    )
+    found = run(
+        f"""
+.NOE
+ I 1
+ I 2 X 1 0 0
+ I 3 X 1 0 1
+ I 4 X 0 0 1
+ I 9 X 0.5 0 1
+.MAI
+ I 1 N 1 2 3 4
+.HYP MEMBRANE TENSION 1
+.SEL
+ GROUP 1 NOM "all" MAILLES TOUT
+ GROUP 2 NOM "top" NOEUDS 3 4
+.PHP GROUP "all" THICK 0.01
+.MAT I 1 YT 1E6 NT 0
+.AEL GROUP "all" MAT 1
+.MCE
+ {links}
+ I 12 PRISMATIC N 0 9 AXIS 0 0 1
+ I 13 SPRING N 0 9 K 1 1 1
+.FCT I 1 TABLE 0 0 1 1
+.CLM
+ NOEUD 1 2 FIX C 1 2 3
+ NOEUD 9 CHA C 3 V 10 NF 1
+.SAM TYPE STATIC
+.SUB TF 1 H 0.5
+.FIN
+""",
+        tmp_path,
+    )
+    assert found["node/9/UZ"][-1] == pytest.approx(10 / (1e4 + 1), rel=4e-3)
+    assert found["node/3/UZ"][-1] == pytest.approx(found["node/9/UZ"][-1], abs=1e-12)

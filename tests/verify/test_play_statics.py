@@ -108,3 +108,55 @@ def test_belt_without_preload(load: str, tmp_path: Path) -> None:
     torque = 50 * (first + (last - first) * result.t)
     assert result["3/TIGHT_SIDE"] == pytest.approx(np.abs(torque) / 0.05, rel=1e-8, abs=1e-6)
     assert result["3/SLACK_SIDE"] == pytest.approx(0, abs=1e-6)
+
+
+# play in the teeth and in the spring that holds them, both at rest where they just touch
+TWO_PLAYS = """
+.NOE
+ I 1
+ I 2 X 60
+.MCE
+ I 1 GEAR N 1 2 AXIS 0 0 1 Z 20 40 MN 2 KM 1.5E5 JEU 0.05
+ I 2 HINGE N 0 1 AXIS 0 0 1 LAW TABLE 3
+ I 3 HINGE N 0 2 AXIS 0 0 1
+ I 4 TORQUE N 2 AXIS 0 0 1 V 60000 NF 2
+.FCT
+ I 2 TABLE {load}
+ I 3 TABLE -2 -40000 -0.05 0 0.05 0 2 40000
+.SAM TYPE STATIC
+.SUB TF 1 H 0.05
+.FIN
+"""
+
+
+@pytest.mark.parametrize("load", ["0 0 1 1", "0 0 0.07 0 1 1", "0 0.001 1 1"])
+def test_two_plays_in_series_take_a_load_that_grows_from_zero(load: str, tmp_path: Path) -> None:
+    """Nothing resists before the load begins, and nothing needs to. 30000 turn A by 0.05 + 1.95 · 3/4."""
+    found = run(TWO_PLAYS.format(load=load), tmp_path)
+    assert found["2/ANGLE"][-1] == pytest.approx(-(0.05 + 1.95 * 0.75), rel=1e-9)
+
+
+def test_a_belt_and_a_spring_with_play_take_a_load_that_grows_from_zero(tmp_path: Path) -> None:
+    """The bearings balance the preload of the belt, whose slack side goes slack: it gives by 0.065.
+    Wheel B turns by 0.05 + 160/200 · 1.95."""
+    found = run(
+        """
+.NOE
+ I 1
+ I 2 X 0.5
+.MCE
+ I 1 HINGE N 0 1 AXIS 0 0 1
+ I 3 HINGE N 0 2 AXIS 0 0 1 LAW TABLE 3
+ I 7 BELT N 1 2 AXIS 0 0 1 R 0.05 0.1 K 20000 PRELOAD 300
+ I 8 TORQUE N 1 AXIS 0 0 1 V 80 NF 1
+.FCT
+ I 1 RAMP 0 0 1 1
+ I 3 TABLE -2 -300 -0.05 0 0.05 0 2 200
+.SAM TYPE STATIC
+.SUB TF 1 H 0.1
+.FIN
+""",
+        tmp_path,
+    )
+    assert found["3/ANGLE"][-1] == pytest.approx(1.61, rel=1e-9)
+    assert found["1/ANGLE"][-1] == pytest.approx((0.065 + 0.1 * 1.61) / 0.05, rel=1e-9)

@@ -426,7 +426,7 @@ def test_speed_of_a_joint_with_a_point_mass(solver: str, tmp_path: Path) -> None
 def test_friction_of_a_bearing_beside_teeth_does_not_jam(
     sam: str, coefficient: float, tmp_path: Path
 ) -> None:
-    """The balance leads across |λ| of the separating force before it converges. W: load along the pitch line."""
+    """The balance leads across |λ| of the separating force before it converges. W: pitch-line load."""
     found = run(
         f"""
 .NOE

@@ -16,6 +16,14 @@ bool rubs_round(const JointFriction& f) { return f.kind != Rubbing::guide && f.k
 
 }  // namespace
 
+int Joint::sliding_channel(const JointFriction& f) const {
+  if (f.law.rests || f.collar > 0 || (f.kind != Rubbing::journal && f.kind != Rubbing::guide)) return -1;
+  const Measure along = f.kind == Rubbing::guide ? Measure::gap_1 : f.turn;
+  for (std::size_t k = 0; k < parts_.coordinates.size(); ++k)
+    if (parts_.coordinates[k].measure == along) return 2 * static_cast<int>(k) + 1;
+  return -1;
+}
+
 void Joint::name_channels() {
   for (const JointCoordinate& c : parts_.coordinates) {
     const bool length = is_length(c.measure);
@@ -70,14 +78,21 @@ void Joint::name_channels() {
       channels_.push_back({c.names.gap, length ? dimension::length : dimension::angle, "to the nearer stop; negative: pressed"});
     }
   }
-  for (const JointFriction& f : parts_.friction) {
+  for (std::size_t i = 0; i < parts_.friction.size(); ++i) {
+    const JointFriction& f = parts_.friction[i];
+    const int pressing = static_cast<int>(channels_.size()), rate = sliding_channel(f);
+    const auto follows_from_speed = [&] {
+      if (rate >= 0) rubs_.push_back({{static_cast<int>(channels_.size()), {pressing, rate}}, i});
+    };
     channels_.push_back({"PRESSING_FORCE" + f.suffix, dimension::force,
                          "sum of the forces that press the rubbing surfaces together", Channel::Course::size});
+    follows_from_speed();
     if (rubs_along(f))
       channels_.push_back({"FRICTION_FORCE" + f.suffix, dimension::force, "size of the friction force", Channel::Course::size});
     if (rubs_round(f))
       channels_.push_back(
           {"FRICTION_MOMENT" + f.suffix, dimension::moment, "size of the friction moment", Channel::Course::size});
+    follows_from_speed();
     channels_.push_back({"FRICTION_POWER" + f.suffix, dimension::power, "power lost in friction", Channel::Course::size});
   }
 }
@@ -134,6 +149,7 @@ void Joint::observe(const State& state, std::span<double> values) const {
 std::vector<Joint::Determined> Joint::determined() const {
   std::vector<Determined> all = gaps_;
   all.insert(all.end(), sizes_.begin(), sizes_.end());
+  for (const Rub& rub : rubs_) all.push_back(rub.by);
   for (std::size_t k = 0; k < parts_.coordinates.size(); ++k)
     if (parts_.coordinates[k].drive.given())
       for (const int i : {0, 1}) all.push_back({static_cast<int>(2 * k) + i});
@@ -147,6 +163,13 @@ double Joint::determine(int channel, double time, std::span<const double> source
   const auto is_asked = [channel](const Determined& size) { return size.channel == channel; };
   if (std::any_of(sizes_.begin(), sizes_.end(), is_asked))
     return Eigen::Map<const Eigen::VectorXd>(sources.data(), static_cast<Eigen::Index>(sources.size())).norm();
+  for (const Rub& rub : rubs_)
+    if (rub.by.channel == channel) {
+      const JointFriction& f = parts_.friction[rub.friction];
+      const double lever = f.kind == Rubbing::guide ? 1 : f.radius, N = sources[0], speed = lever * std::abs(sources[1]);
+      const double drag = f.law.over_speed(speed * speed, N) * N * speed;
+      return drag * (channels_[static_cast<std::size_t>(channel)].dimension == dimension::power ? speed : lever);
+    }
   const JointCoordinate& driven = owner(channel);
   return channel % 2 == 1 ? driven.drive.rate(time) : driven.drive.coordinate(time) + driven_origin(driven);
 }

@@ -147,7 +147,7 @@ std::unique_ptr<Element> build(const MeanLinkData& data, BuildContext& context) 
     all.topRows<3>() = (*weights)[i] * Mat3::Identity();
     all.bottomRows<3>() = (*weights)[i] * flexibility * skew(group->places[i] - centre);
     if (group->in_plane) all.col(2).setZero();
-    NodeLink share{group->places[i], all(rows, Eigen::all), true, group->in_plane, group->small};
+    NodeLink share{group->places[i], all(rows, Eigen::all), true, group->small};
     if (!first) {
       whole.nodes = {data.master, group->nodes[i]};
       first = std::make_unique<FirstShare>(context.record.id, whole, std::move(share));

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <unordered_set>
 
 #include "elements/structural/cell.hpp"
+#include "elements/structural/cell_book.hpp"
 #include "elements/structural/cell_topology.hpp"
 
 namespace engrane::elements::structural {
@@ -21,12 +23,16 @@ struct LinkedMesh {
   explicit LinkedMesh(const BuildContext& context) {
     if (!context.records) return;
     small = deck::has_small_displacements(*context.records);
-    std::unordered_set<int> of_solids;
+    std::unordered_set<int> in_space;
+    const std::shared_ptr<const CellBook> book = CellBook::of(context);
     for (const deck::Record& record : *context.records)
       if (const auto* data = record.get<CellData>())
-        if (const auto cell = connectivity(data->nodes))
-          (is_solid(cell->shape) ? of_solids : ids).insert(cell->nodes.begin(), cell->nodes.end());
-    for (const int id : of_solids) ids.erase(id);
+        if (const auto cell = connectivity(data->nodes)) {
+          const auto section = is_solid(cell->shape) ? nullptr : book->section(record.id);
+          const bool solid = is_solid(cell->shape) || (section && section->skin);
+          (solid ? in_space : ids).insert(cell->nodes.begin(), cell->nodes.end());
+        }
+    for (const int id : in_space) ids.erase(id);
   }
 };
 

@@ -33,11 +33,10 @@ struct LinkData : deck::NodeTarget {
 /// in global axes, with θ the rotation vector of the master: constraints and forces are linear, like those of the cells.
 struct NodeLink {
   using Weights = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor, 6, 3>;
-  Vec3 place;             ///< d_i: position of the node relative to the master in the reference configuration
-  Weights weights;        ///< A_i: one row per constraint
-  bool shares = false;    ///< the constraints are sums over several nodes
-  bool in_plane = false;  ///< the node has no unknown along z
-  bool small = false;     ///< small displacements
+  Vec3 place;           ///< d_i: position of the node relative to the master in the reference configuration
+  Weights weights;      ///< A_i: one row per constraint
+  bool shares = false;  ///< the constraints are sums over several nodes
+  bool small = false;   ///< small displacements
 
   /// Residual: −Aᵀλ at the node and its reaction on the master. If the constraint is shared, the penalty term that
   /// Balance::constraint() includes is removed: on a single share it would act as a stiffness between nodes that are free to
@@ -46,8 +45,8 @@ struct NodeLink {
   void evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance) const {
     const auto& master = motion.node[0];
     const Vec3T<T> apart = motion.node[1].x - master.x, at_rest = place.template cast<T>();
-    Vec3T<T> arm = small ? Vec3T<T>(apart - cross(RotationVector<T>::of(master.R).theta, at_rest)) : rotate_back(master.R, apart);
-    if (in_plane) arm[2] = T(place[2]);
+    const Vec3T<T> arm =
+        small ? Vec3T<T>(apart - cross(RotationVector<T>::of(master.R).theta, at_rest)) : rotate_back(master.R, apart);
     Vec3T<T> f(T(0), T(0), T(0));
     for (Eigen::Index row = 0; row < weights.rows(); ++row) {
       T phi(0);

@@ -21,7 +21,7 @@ std::unique_ptr<Element> build(const RigidLinkData& data, BuildContext& context)
   std::unique_ptr<Element> first;
   for (std::size_t i = 0; i < group->nodes.size(); ++i) {
     auto one = NodeLinks::add(block, context.record.id, {data.master, group->nodes[i]},
-                              {group->places[i], NodeLink::Weights::Identity(rows, 3), false, group->in_plane, group->small});
+                              {group->places[i], NodeLink::Weights::Identity(rows, 3), false, group->small});
     if (!first)
       first = std::move(one);
     else if (context.more)

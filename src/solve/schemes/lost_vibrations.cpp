@@ -31,6 +31,11 @@ constexpr double near_expected = 2;
 constexpr double excited = 1.5, as_before = 0.6;
 /// A vibration whose ω differs by more than this part is another one.
 constexpr double another = 0.1;
+/// Differences of accelerations below this fraction of their terms are rounding.
+constexpr double noise = 1e-9;
+/// Least part of the energy of a vibration that is found in displacements where nothing but their ratio to accelerations shows
+/// its frequency. In short steps both are rounding, and what iterations leave of motions that are imposed.
+constexpr double least_share = 1e-3;
 /// Least part of the squares that a fit is taken to leave unexplained: it is known no better.
 constexpr double least_unexplained = 1e-12;
 
@@ -79,11 +84,14 @@ void LostVibrations::look(std::span<const double> v0, std::span<const double> a0
     of_y[slot] = 0;
     of_v[slot] = weights_[0] * v0[slot];
     of_a[slot] = weights_[0] * a0[slot];
+    double terms = std::abs(of_a[slot]);
     for (std::size_t i = 0; i < y.size(); ++i) {
       of_y[slot] += weights_[i + 1] * y[i][slot];
       of_v[slot] += weights_[i + 1] * v[i][slot];
       of_a[slot] += weights_[i + 1] * a[i][slot];
+      terms += std::abs(weights_[i + 1] * a[i][slot]);
     }
+    if (!(std::abs(of_a[slot]) > noise * terms)) of_y[slot] = of_v[slot] = of_a[slot] = 0;
   }
   for (std::vector<double>& difference : differences_) append_relative(difference);
 }
@@ -122,6 +130,8 @@ bool LostVibrations::solve(const Products& p, double h, bool slow_beside, Group&
     stiffness = -(p.ax * p.vv - p.av * p.xv) / determinant;
     damping = -(p.av * p.xx - p.ax * p.xv) / determinant;
   }
+  // one instant fits any frequency: of a vibration displacements and velocities tell the same, but for a phase that is rare
+  if (!tells_decay && stiffness * p.xx < least_share * p.vv) return false;
   const double unexplained = p.aa + 2 * (stiffness * p.ax + damping * p.av) + stiffness * stiffness * p.xx +
                              2 * stiffness * damping * p.xv + damping * damping * p.vv;
   if (!(stiffness * h * h > resolved * resolved) || unexplained > (1 - good_fit) * p.aa) return false;

@@ -5,12 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <utility>
 
 #include "assembly/energies.hpp"
+#include "assembly/loads.hpp"
 #include "model/linear_statics.hpp"
+#include "solve/algebra/imbalance.hpp"
 #include "solve/algebra/probe.hpp"
+#include "solve/algebra/rows.hpp"
 #include "solve/constraints/diagnosis.hpp"
 #include "solve/schemes/descent.hpp"
 
@@ -95,7 +99,7 @@ StartReport Statics::start(Configuration& c) {
   if (context_.newton.keeps_one_tangent()) context_.newton.refine_next();
   std::optional<Configuration> before;
   if (!contacts_.empty() && !context_.newton.keeps_one_tangent()) before = c;
-  NewtonReport newton = find(c, 0, c, false);
+  NewtonReport newton = find_or_rest(c, 0, c);
   // what contacts that only touch leave free, as a string that is not tight yet, they may hold under load
   if (newton.singular && before) {
     Configuration other;
@@ -132,7 +136,7 @@ Outcome Statics::attempt(const Configuration& from, double h, Configuration& to)
   leapt_ = false;
   if (supports_) loads_ = context_.newton.loads();
   if (!error_.wanted() || path_.empty()) {
-    NewtonReport report = find(from, h, to, false);
+    NewtonReport report = find_or_rest(from, h, to);
     stay_on_branch(from, h, report, to);
     return {std::move(report), {}};
   }
@@ -174,6 +178,38 @@ bool Statics::leaps(const Configuration& from, const Configuration& to) {
     return false;
   context_.newton.restore_loads(loads_);
   return leapt_ = true;
+}
+
+NewtonReport Statics::find_or_rest(const Configuration& from, double h, Configuration& to) {
+  std::optional<Configuration> still;
+  if (!context_.newton.keeps_one_tangent() && context_.options.end > context_.options.begin) still = from;
+  NewtonReport report;
+  std::exception_ptr unresisted;
+  try {
+    report = find(from, h, to, false);
+  } catch (const SolutionFailure&) {
+    unresisted = std::current_exception();
+  }
+  if (report.converged) return report;
+  if (still) {
+    const MotionSlots::Origin origin(*still);
+    Configuration there = *still;
+    there.time = still->time + h;
+    there.h = h;
+    std::fill(y_.begin(), y_.end(), 0.0);
+    context_.motion.prescribe_increment(still->time, there.time, y_);
+    context_.motion.move(origin, y_, there);
+    if (rests(there)) {
+      to = std::move(there);
+      tried_time_ = to.time;
+      tried_forces_ = to.multipliers;
+      report = {};
+      report.converged = true;
+      return report;
+    }
+  }
+  if (unresisted) std::rethrow_exception(unresisted);
+  return report;
 }
 
 NewtonReport Statics::find(const Configuration& from, double h, Configuration& to, bool predicted) {
@@ -319,6 +355,27 @@ NewtonReport Statics::balance(const MotionSlots::Origin& from, std::span<double>
   refuse_half_turns(y, report);
   if (!report.converged) context_.newton.refuse_last();
   return report;
+}
+
+bool Statics::rests(Configuration& c) {
+  if (any_loads(context_.assembler, c)) return false;
+  Configuration still = c;
+  try {
+    context_.start.balance_accelerations(still);  // finds the reactions
+  } catch (const SolutionFailure&) {
+    return false;
+  }
+  context_.motion.set_accelerations(std::vector<double>(y_.size(), 0.0), still);
+  context_.assembler.residual(still, unknowns_);
+  // a contact that touches by rounding has the stiffness of one that is closed
+  const Bridges bridges{context_.assembler.contact_homotopy = 1};
+  context_.assembler.tangent(still, {1, 0, 0});
+  constexpr double several = 256;  // positions of contacts come of sums and products
+  std::vector<double> size = rounding_of_unknowns(context_.assembler, references(), still);
+  for (double& one : size) one *= several;
+  if (!is_noise(unknowns_, magnitudes_times(context_.assembler.matrix(), size))) return false;
+  c = std::move(still);
+  return true;
 }
 
 bool Statics::touches(const Configuration& c) const {

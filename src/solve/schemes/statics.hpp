@@ -74,6 +74,11 @@ class Statics : public Scheme {
   void require_resistance(const Configuration& c, NewtonReport& report);
   /// Whether a contact is closed or open by no more than rounding (Element::touches).
   bool touches(const Configuration& c) const;
+  /// find() without a prediction or, where it finds nothing, the positions as they are if the model rests() there.
+  NewtonReport find_or_rest(const Configuration& from, double h, Configuration& to);
+  /// Whether no load acts, and forces balance at `c` as it is, to rounding; finds the reactions. A model that rests in its plays before its load
+  /// grows from zero has no stiffness yet, and needs none.
+  bool rests(Configuration& c);
 
   std::vector<int> contacts_;          ///< elements with gaps
   std::optional<Reactions> supports_;  ///< with gaps, as long as leaps are looked for
