@@ -76,8 +76,8 @@ class Statics : public Scheme {
   bool touches(const Configuration& c) const;
   /// find() without a prediction or, where it finds nothing, the positions as they are if the model rests() there.
   NewtonReport find_or_rest(const Configuration& from, double h, Configuration& to);
-  /// Whether no load acts, and forces balance at `c` as it is, to rounding; finds the reactions. A model that rests in its plays before its load
-  /// grows from zero has no stiffness yet, and needs none.
+  /// Whether no load acts, and forces balance at `c` as it is, to rounding; finds the reactions. A model that rests in its plays
+  /// before its load grows from zero has no stiffness yet, and needs none.
   bool rests(Configuration& c);
 
   std::vector<int> contacts_;          ///< elements with gaps
