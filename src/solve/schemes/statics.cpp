@@ -190,7 +190,7 @@ NewtonReport Statics::find_or_rest(const Configuration& from, double h, Configur
   } catch (const SolutionFailure&) {
     unresisted = std::current_exception();
   }
-  if (report.converged) return report;
+  if (report.converged || report.conflict) return report;
   if (still) {
     const MotionSlots::Origin origin(*still);
     Configuration there = *still;
@@ -358,7 +358,7 @@ NewtonReport Statics::balance(const MotionSlots::Origin& from, std::span<double>
 }
 
 bool Statics::rests(Configuration& c) {
-  if (any_loads(context_.assembler, c)) return false;
+  if (any_loads(context_.assembler, c) || !context_.redundancy.conflict(c).empty()) return false;
   Configuration still = c;
   try {
     context_.start.balance_accelerations(still);  // finds the reactions
