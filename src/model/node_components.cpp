@@ -41,6 +41,9 @@ std::optional<Lack> lacks(unsigned needs, int component) {
   return {};
 }
 
+/// Axis normal to the plane that `.SAM PLANE` names, about which alone nodes turn there (0 to 2); −1: none.
+int normal_of(const deck::Tagged& plane) { return plane.is("YZ") ? 0 : plane.is("ZX") ? 1 : plane.is("XY") ? 2 : -1; }
+
 /// The fault of node `id` with `held` of its rotations prescribed, `component` among them and, if two are, `free` not: a finite
 /// rotation has no such components.
 void report_rotations(const Location& location, int id, int component, int held, int free, Diagnostics& diagnostics) {
@@ -69,6 +72,7 @@ void check_supports(const Model& model, std::span<const Location> locations, Dia
   const std::vector<unsigned> needs = needs_of_nodes(model);
   // a motion in time has rates about the axes of the node; positions of equilibrium would depend on the number of steps
   const bool follows_rates = model.commands.analysis.type.is("DYNAMIC");
+  const int normal = normal_of(model.commands.analysis.plane);
   std::vector<std::array<const Support*, 3>> turning(model.nodes.size(), {nullptr, nullptr, nullptr});
   for (const Support& s : model.supports)
     if (s.component > 2) turning[static_cast<std::size_t>(s.node)][static_cast<std::size_t>(s.component - 3)] = &s;
@@ -92,7 +96,9 @@ void check_supports(const Model& model, std::span<const Location> locations, Dia
       } else {
         free = c;
       }
-    const bool wrong = held == 1 || (held == 3 && s.value != 0 && moved > 1) || (held == 2 && s.value != 0 && !follows_rates);
+    const bool about_normal = held == 1 && s.component - 3 == normal;
+    const bool wrong =
+        (held == 1 && !about_normal) || (held == 3 && s.value != 0 && moved > 1) || (held == 2 && s.value != 0 && !follows_rates);
     if (wrong && told.insert(s.node).second) report_rotations(locations[i], id, s.component + 1, held, free, diagnostics);
   }
 }

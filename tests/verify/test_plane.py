@@ -179,3 +179,36 @@ def test_friction_at_rest_holds_nothing_in_the_plane(tmp_path: Path, aside: floa
     assert done.returncode == (0 if aside == 0 else 1)
     if aside != 0:
         assert "SPRING 3 is not of the plane ZX" in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("kind", "plane", "component", "axes"), [("DYNAMIC", "XY", 6, "0 1"), ("STATIC", "ZX", 5, "2 0")]
+)
+def test_one_rotation_is_enough_in_the_plane(
+    kind: str, plane: str, component: int, axes: str, tmp_path: Path
+) -> None:
+    """A node that turns about the normal of the plane alone, by more than a right angle."""
+    first, second = (int(i) for i in axes.split())
+    place = " ".join("1" if i == first else "0" for i in range(3))
+    found = run(
+        f"""
+.NOE
+ I 1
+ I 2 X {place}
+.MCE
+ I 1 INERTIA N 1 M 1 J 1
+ I 2 INERTIA N 2 M 1 J 1
+ I 3 RIGID N 1 2
+.CLM
+ NOEUD 1 FIX C {first + 1} {second + 1}
+ NOEUD 1 DEP C {component} V 150 NF 1
+.FCT I 1 TABLE 0 0 1 1
+.SAM TYPE {kind} PLANE {plane}
+.SUB TF 1 H 0.05
+.FIN
+""",
+        tmp_path,
+    )
+    turn = np.radians(150)
+    assert found[f"node/2/U{'XYZ'[first]}"][-1] == pytest.approx(np.cos(turn) - 1, abs=1e-9)
+    assert found[f"node/2/U{'XYZ'[second]}"][-1] == pytest.approx(np.sin(turn), abs=1e-9)
