@@ -293,3 +293,40 @@ def test_load_steps_are_closed_as_far_as_their_tolerance_needs(
     text = re.sub(r"(?m)^\.CHK.*\n(?:[ !].*\n)*", "", text)
     text = text.replace(".SUB TF 1 H (1/3000)", ".SUB TF 0.2 H (1/3000)")  # 200 turns of 1000
     run(re.sub(r"(?m)^(\.SUB [^!\n]*)", rf"\1 TOL {tolerance}", text), tmp_path)
+
+
+@pytest.mark.parametrize("tolerance", ["1e-4", "1e-5"])
+def test_a_drift_leaves_constraints_open_and_the_next_step_begins(tolerance: str, tmp_path: Path) -> None:
+    """Steps end where the flanks slide as slowly as VREG. What the drift behind leaves open, 5e-12 of a turn,
+    looks like a speed in the next step, the larger the shorter that is: at 1e-5 none was short enough."""
+    deck = """
+.NOE
+ I 1
+ I 2 X (0.06/cos(10*PI/180))
+ I 3 X 0.5 0.2
+ I 4 X 0.5 0.24 0.1
+ I 5 X 0.55 0.2 0.05
+.MCE
+ I 1 HINGE N 0 1 AXIS 0 0 1 DRIVE ANGLE NF 1
+ I 2 HINGE N 0 2 AXIS 0 0 1 FRICTION CONST 0.1 RADIUS 0.01 VREG 1E-2
+ I 3 HINGE N 0 3 AXIS 0 0 1
+ I 4 GEAR N 1 2 AXIS 0 0 1 Z 20 40 MN 0.002 HELIX 10 FRICTION CONST 0.05 VREG 0.01 SLIDING PROFILE
+ I 5 BELT N 2 3 AXIS 0 0 1 R 0.05 0.08 PRELOAD 300 MU 0.4
+ I 6 CAM N 3 4 AXIS 0 0 1 BASE 0.03 MOTION 90 0.012 60 0.012 90 0 120 0 LAW POLY4567 FOLLOWER ROLLER 0.01 $
+    DIRECTION 0 1 0
+ I 7 PRISMATIC N 0 4 AXIS 0 1 0 K 3E4 SLIDE0 -0.01 FRICTION CONST 0.1 VREG 1E-3 LENGTH 0.05
+ I 8 RIGID N 3 5
+ I 11 INERTIA N 1 M 1 J 1E-3
+ I 12 INERTIA N 2 M 2 J 2E-3
+ I 13 INERTIA N 3 M 2 J 5E-3
+ I 14 INERTIA N 4 M 0.5 J 1E-4
+ I 17 MOTOR JOINT 3 STALL -2 FREE 1000
+.FCT I 1 EXPR "30*T+2*sin(20*T)"
+.CLM STRU ACC VAL 0 -9.81 0
+.SAM TYPE {}
+.SUB TF 0.5 H 0.0005 {}
+.FIN
+"""
+    found = run(deck.format("DYNAMIC SCHEME RADAU", f"TOL {tolerance}"), tmp_path)
+    truth = run(deck.format("KINEMATIC", ""), tmp_path, "truth")
+    assert found["1/DRIVE_TORQUE"][-1] == pytest.approx(truth["1/DRIVE_TORQUE"][-1], rel=1e-5)

@@ -81,12 +81,20 @@ StartReport Radau::start(Configuration& c) {
 
 void Radau::start_memory(const Configuration&, const MasslessMotions*, bool) { forget(); }
 
-void Radau::restart_memory(Configuration&) { forget(); }
+void Radau::restart_memory(Configuration& c) {
+  forget();
+  leaves_open(c);
+}
+
+void Radau::leaves_open(const Configuration& c) {
+  if (error_.wanted() && constrained())
+    drifted_open_ = relative_open(context_.assembler, context_.assembler.violations(c)).lpNorm<Eigen::Infinity>();
+}
 
 void Radau::forget_motion() {
   accelerations_.clear();
   multipliers_.clear();
-  open_ = 0;
+  open_ = drifted_open_ = 0;
   judged_ = {};
   kept_step_ = 0;
   coupled_ = {};
@@ -383,9 +391,13 @@ double Radau::local_error(const Configuration& from, double h, const Configurati
     speeds[slot] *= weight;
   }
   const auto v = context_.motion.velocities(to);
+  // what a drift has left open is closed at once, by all stages
   const double open = StepError::known + weight_of_places_ * open_;
+  const Eigen::VectorXd closing = collocation_.inverse.rowwise().sum().cwiseProduct(collocation_.embedded);
+  const double of_places = open + weight_of_places_ * drifted_open_,
+               of_speeds = open + weight * closing.lpNorm<1>() * drifted_open_;
   const auto judged = [&] {
-    return std::max(error_.over_tolerance(places, v, h, open), error_.over_tolerance(speeds, v, h, open));
+    return std::max(error_.over_tolerance(places, v, h, of_places), error_.over_tolerance(speeds, v, h, of_speeds));
   };
   const double error = judged();
   // A step that begins near a singular position knows the velocities and accelerations there only as far as the rounding that
@@ -407,6 +419,7 @@ void Radau::accept() {
   accelerations_.add(tried_.time, tried_.a);
   multipliers_.add(tried_.time, tried_.multipliers);
   open_ = tried_.open;
+  drifted_open_ = 0;
   judged_ = tried_.judged;
   if (error_.wanted()) kept_.step();
 }
@@ -419,6 +432,7 @@ void Radau::save(Snapshot& snapshot) const {
   snapshot.put("radau/kept_step", kept_step_);
   snapshot.put("radau/matrices_step", matrices_step_);
   snapshot.put("radau/open", open_);
+  snapshot.put("radau/drifted_open", drifted_open_);
   snapshot.put("radau/judged", {judged_.step, judged_.error});
   snapshot.put("radau/coupled", {coupled_.step, static_cast<double>(coupled_.tries), static_cast<double>(coupled_.left)});
   save_part(kept_, "radau/kept/", snapshot);
@@ -435,6 +449,7 @@ void Radau::load(const Snapshot& snapshot) {
   projection_.load(part_of(snapshot, "radau/"));
   solver_.load(snapshot);
   open_ = snapshot.number("radau/open");
+  drifted_open_ = snapshot.has("radau/drifted_open") ? snapshot.number("radau/drifted_open") : 0;
   judged_ = {snapshot.array("radau/judged").at(0), snapshot.array("radau/judged").at(1)};
   const std::vector<double>& coupled = snapshot.array("radau/coupled");
   coupled_ = {coupled.at(0), static_cast<int>(coupled.at(1)), static_cast<int>(coupled.at(2))};

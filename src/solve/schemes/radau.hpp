@@ -86,6 +86,8 @@ class Radau final : public Dynamics {
   Correction correct();
   /// Discards what steps are predicted from.
   void forget_motion();
+  /// Notes how far open a drift has left the constraints of `c`.
+  void leaves_open(const Configuration& c);
   void forget() {
     forget_motion();
     kept_.clear();
@@ -112,6 +114,7 @@ class Radau final : public Dynamics {
   StageMotion now_;                                  ///< of the present step
   double weight_of_places_;                          ///< sum of the weights of stages in the embedded formula, by magnitude
   double open_ = 0;                                  ///< End::open of the last accepted step
+  double drifted_open_ = 0;                          ///< the same after a drift, until the next step
   Judged judged_;                                    ///< the last accepted step; step 0: none since the last event
   End tried_;                                        ///< of the last attempt
   std::vector<double> last_change_, change_before_;  ///< the last two corrections of the end of the step, by motion slot

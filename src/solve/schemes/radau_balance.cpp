@@ -107,6 +107,7 @@ void Radau::drift(Configuration& c, double h) {
   if (constrained() && !(projection_.fit_velocities(later) && fit_accelerations())) return Dynamics::drift(c, h);
   c = std::move(later);
   forget_motion();
+  leaves_open(c);
 }
 
 std::vector<double> Radau::inertia_of(std::span<const double> accelerations) {
