@@ -36,6 +36,8 @@ constexpr std::size_t points_of_guess = 4;
 constexpr double longest_growth = 3;
 /// Fraction of the tolerance of a step that the iteration may leave.
 constexpr double share_of_iteration = 0.02;
+/// Where a drift leaves more than this open, over a length or in radians, it shows in the error of the next step.
+constexpr double most_left_open = 1e-11;
 /// An error of velocities counts this much beside one of displacements over the length of the step, and in full in the first
 /// step after an event: what it excites passes unseen below steps of many of its periods, but not the speed that it has.
 constexpr double weight_of_speeds = 0.15, weight_after_event = 1;
@@ -87,8 +89,9 @@ void Radau::restart_memory(Configuration& c) {
 }
 
 void Radau::leaves_open(const Configuration& c) {
-  if (error_.wanted() && constrained())
-    drifted_open_ = relative_open(context_.assembler, context_.assembler.violations(c)).lpNorm<Eigen::Infinity>();
+  if (!error_.wanted() || !constrained()) return;
+  const double open = relative_open(context_.assembler, context_.assembler.violations(c)).lpNorm<Eigen::Infinity>();
+  drifted_open_ = std::min(open, most_left_open);
 }
 
 void Radau::forget_motion() {
