@@ -181,8 +181,8 @@ bool Statics::leaps(const Configuration& from, const Configuration& to) {
 }
 
 NewtonReport Statics::find_or_rest(const Configuration& from, double h, Configuration& to) {
-  std::optional<Configuration> still;
-  if (!context_.newton.keeps_one_tangent() && context_.options.end > context_.options.begin) still = from;
+  const bool may_rest = !context_.newton.keeps_one_tangent() && context_.options.end > context_.options.begin;
+  const std::optional<Configuration> start = may_rest && &to == &from ? std::optional(from) : std::nullopt;
   NewtonReport report;
   std::exception_ptr unresisted;
   try {
@@ -191,14 +191,14 @@ NewtonReport Statics::find_or_rest(const Configuration& from, double h, Configur
     unresisted = std::current_exception();
   }
   if (report.converged || report.conflict) return report;
-  if (still) {
-    const MotionSlots::Origin origin(*still);
-    Configuration there = *still;
-    there.time = still->time + h;
+  if (may_rest) {
+    const Configuration& still = start ? *start : from;
+    Configuration there = still;
+    there.time = still.time + h;
     there.h = h;
     std::fill(y_.begin(), y_.end(), 0.0);
-    context_.motion.prescribe_increment(still->time, there.time, y_);
-    context_.motion.move(origin, y_, there);
+    context_.motion.prescribe_increment(still.time, there.time, y_);
+    context_.motion.move(MotionSlots::Origin(still), y_, there);
     if (rests(there)) {
       to = std::move(there);
       tried_time_ = to.time;
