@@ -110,20 +110,20 @@ std::unique_ptr<Element> build(const MeanLinkData& data, BuildContext& context) 
                   cure);
     return nullptr;
   }
-  if (!group->in_plane && !(extents[1] > std::max(least_part * extents[2], rounded))) {
+  if (!group->in_plane() && !(extents[1] > std::max(least_part * extents[2], rounded))) {
     context.error("N", fmt::format("the nodes of the group lie on a line, about which node {} could turn freely", data.master),
                   cure);
     return nullptr;
   }
   const Mat3 inertia = spread.trace() * Mat3::Identity() - spread;
   const Vec3 resistances =
-      group->in_plane ? Vec3(Vec3::Constant(inertia(2, 2))) : Vec3(Eigen::SelfAdjointEigenSolver<Mat3>(inertia).eigenvalues());
+      group->in_plane() ? Vec3(Vec3::Constant(inertia(2, 2))) : Vec3(Eigen::SelfAdjointEigenSolver<Mat3>(inertia).eigenvalues());
   if (!(resistances.cwiseAbs().minCoeff() > least_part * extents[2])) {
     context.error("W", fmt::format("with these weights the group has no mean rotation for node {} to follow", data.master),
                   "the second moments of the weights cancel out; take those of a face, or none");
     return nullptr;
   }
-  const Mat3 flexibility = group->in_plane ? Mat3(Vec3(0, 0, 1 / inertia(2, 2)).asDiagonal()) : Mat3(inertia.inverse());
+  const Mat3 flexibility = group->in_plane() ? Mat3(Vec3(0, 0, 1 / inertia(2, 2)).asDiagonal()) : Mat3(inertia.inverse());
 
   std::vector<Multiplier> multipliers;
   for (const char* name : {"FORCE_X", "FORCE_Y", "FORCE_Z"})
@@ -131,23 +131,23 @@ std::unique_ptr<Element> build(const MeanLinkData& data, BuildContext& context) 
   for (const char* name : {"MOMENT_X", "MOMENT_Y", "MOMENT_Z"})
     multipliers.push_back({{name, dimension::angle, "mean rotation of the group, master's axes"}, Role::moment});
   std::vector<Eigen::Index> rows = {0, 1, 2, 3, 4, 5};
-  if (group->in_plane) {
+  if (group->in_plane()) {
     rows = {0, 1, 5};
     multipliers = {multipliers[0], multipliers[1], multipliers[5]};
   }
-  Layout whole = link_layout(group->in_plane, std::move(multipliers));
+  Layout whole = link_layout(group->in_plane(), std::move(multipliers));
   Layout shared = whole;
   shared.shares_multipliers = true;
   BlockStore alone;
   const auto block =
-      (context.blocks ? *context.blocks : alone).block<NodeLinks>(group->in_plane ? "mean, plane" : "mean", std::move(shared));
+      (context.blocks ? *context.blocks : alone).block<NodeLinks>(group->in_plane() ? "mean, plane" : "mean", std::move(shared));
   std::unique_ptr<Element> first;
   for (std::size_t i = 0; i < count; ++i) {
     Eigen::Matrix<double, 6, 3> all;
     all.topRows<3>() = (*weights)[i] * Mat3::Identity();
     all.bottomRows<3>() = (*weights)[i] * flexibility * skew(group->places[i] - centre);
-    if (group->in_plane) all.col(2).setZero();
-    NodeLink share{group->places[i], all(rows, Eigen::all), true, group->small};
+    if (group->in_plane()) all.col(2).setZero();
+    NodeLink share{group->places[i], all(rows, Eigen::all), true, group->small, group->height};
     if (!first) {
       whole.nodes = {data.master, group->nodes[i]};
       first = std::make_unique<FirstShare>(context.record.id, whole, std::move(share));

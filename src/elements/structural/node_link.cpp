@@ -60,9 +60,10 @@ std::optional<LinkedGroup> linked_group(const LinkData& data, BuildContext& cont
   const auto& mesh = (context.notes ? *context.notes : alone).get<LinkedMesh>([&] { return LinkedMesh(context); });
   group.small = mesh.small;
   const auto other = std::find_if(group.nodes.begin(), group.nodes.end(), [&](int id) { return !mesh.ids.contains(id); });
-  group.in_plane = other == group.nodes.end();
+  const bool in_plane = other == group.nodes.end();
+  if (in_plane) group.height = context.nodes.at(group.nodes.front())[2];
   const auto flat = std::find_if(group.nodes.begin(), group.nodes.end(), [&](int id) { return mesh.ids.contains(id); });
-  if (!group.in_plane && flat != group.nodes.end()) {
+  if (!in_plane && flat != group.nodes.end()) {
     context.error("N", fmt::format("node {} of the group is one of plane cells, node {} is not", *flat, *other),
                   "link them by two links");
     return {};

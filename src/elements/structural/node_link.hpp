@@ -33,10 +33,11 @@ struct LinkData : deck::NodeTarget {
 /// in global axes, with θ the rotation vector of the master: constraints and forces are linear, like those of the cells.
 struct NodeLink {
   using Weights = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor, 6, 3>;
-  Vec3 place;           ///< d_i: position of the node relative to the master in the reference configuration
-  Weights weights;      ///< A_i: one row per constraint
-  bool shares = false;  ///< the constraints are sums over several nodes
-  bool small = false;   ///< small displacements
+  Vec3 place;                         ///< d_i: position of the node relative to the master in the reference configuration
+  Weights weights;                    ///< A_i: one row per constraint
+  bool shares = false;                ///< the constraints are sums over several nodes
+  bool small = false;                 ///< small displacements
+  std::optional<double> height = {};  ///< z of a node that has no unknown along it
 
   /// Residual: −Aᵀλ at the node and its reaction on the master. If the constraint is shared, the penalty term that
   /// Balance::constraint() includes is removed: on a single share it would act as a stiffness between nodes that are free to
@@ -44,7 +45,9 @@ struct NodeLink {
   template <class T>
   void evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance) const {
     const auto& master = motion.node[0];
-    const Vec3T<T> apart = motion.node[1].x - master.x, at_rest = place.template cast<T>();
+    Vec3T<T> apart = motion.node[1].x - master.x;
+    if (height) apart[2] = T(*height) - master.x[2];
+    const Vec3T<T> at_rest = place.template cast<T>();
     const Vec3T<T> arm =
         small ? Vec3T<T>(apart - cross(RotationVector<T>::of(master.R).theta, at_rest)) : rotate_back(master.R, apart);
     Vec3T<T> f(T(0), T(0), T(0));
@@ -72,10 +75,11 @@ class NodeLinks final : public TemplatedBlock<NodeLink, 2, 15> {
 
 /// The group of nodes that a link joins to its master.
 struct LinkedGroup {
-  std::vector<int> nodes;    ///< ids, ascending
-  std::vector<Vec3> places;  ///< positions relative to the master
-  bool in_plane = false;     ///< nodes of plane cells
-  bool small = false;        ///< the deck's cells have small displacements
+  std::vector<int> nodes;             ///< ids, ascending
+  std::vector<Vec3> places;           ///< positions relative to the master
+  std::optional<double> height = {};  ///< z of the nodes of plane cells; none in space
+  bool in_plane() const { return height.has_value(); }
+  bool small = false;  ///< the deck's cells have small displacements
 };
 
 /// Group named by a card. Returns nothing, with errors reported, if a link cannot join it.

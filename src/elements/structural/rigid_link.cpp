@@ -12,16 +12,16 @@ std::unique_ptr<Element> build(const RigidLinkData& data, BuildContext& context)
   std::vector<Multiplier> multipliers;
   for (const char* name : {"FORCE_X", "FORCE_Y", "FORCE_Z"})
     multipliers.push_back({{name, dimension::length, "force on the node, master's axes"}, Role::force});
-  if (group->in_plane) multipliers.pop_back();
+  if (group->in_plane()) multipliers.pop_back();
   const auto rows = static_cast<Eigen::Index>(multipliers.size());
   BlockStore alone;
   const auto block =
       (context.blocks ? *context.blocks : alone)
-          .block<NodeLinks>(group->in_plane ? "rigid, plane" : "rigid", link_layout(group->in_plane, std::move(multipliers)));
+          .block<NodeLinks>(group->in_plane() ? "rigid, plane" : "rigid", link_layout(group->in_plane(), std::move(multipliers)));
   std::unique_ptr<Element> first;
   for (std::size_t i = 0; i < group->nodes.size(); ++i) {
     auto one = NodeLinks::add(block, context.record.id, {data.master, group->nodes[i]},
-                              {group->places[i], NodeLink::Weights::Identity(rows, 3), false, group->small});
+                              {group->places[i], NodeLink::Weights::Identity(rows, 3), false, group->small, group->height});
     if (!first)
       first = std::move(one);
     else if (context.more)

@@ -54,7 +54,12 @@ std::vector<LostVibrations::Pair> LostVibrations::joined(const Model& model) {
 }
 
 LostVibrations::LostVibrations(const Collocation& collocation, std::size_t slots, std::vector<Pair> pairs)
-    : collocation_(collocation), slots_(slots), pairs_(std::move(pairs)), weights_(), groups_(slots / 3 + 2 * pairs_.size()) {
+    : collocation_(collocation),
+      slots_(slots),
+      pairs_(std::move(pairs)),
+      weights_(),
+      rounding_(slots),
+      groups_(slots / 3 + 2 * pairs_.size()) {
   const std::array<double, 4> at{0, collocation.c[0], collocation.c[1], collocation.c[2]};
   for (std::size_t i = 0; i < at.size(); ++i) {
     weights_[i] = 1;
@@ -91,9 +96,11 @@ void LostVibrations::look(std::span<const double> v0, std::span<const double> a0
       of_a[slot] += weights_[i + 1] * a[i][slot];
       terms += std::abs(weights_[i + 1] * a[i][slot]);
     }
-    if (!(std::abs(of_a[slot]) > noise * terms)) of_y[slot] = of_v[slot] = of_a[slot] = 0;
+    rounding_[slot] = !(std::abs(of_a[slot]) > noise * terms);
   }
   for (std::vector<double>& difference : differences_) append_relative(difference);
+  for (std::size_t slot = 0; slot < slots_; ++slot)
+    if (rounding_[slot]) of_y[slot] = of_v[slot] = of_a[slot] = 0;
 }
 
 LostVibrations::Effect LostVibrations::effect(double omega_h, double kappa_h) const {

@@ -116,6 +116,7 @@ class LostVibrations {
   std::vector<Pair> pairs_;
   std::array<double, 4> weights_;                   ///< of divided differences: the beginning and the stages
   std::array<std::vector<double>, 3> differences_;  ///< of displacements, velocities and accelerations
+  std::vector<char> rounding_;                      ///< of each slot of a node: its differences are rounding
   std::vector<Group> groups_;
   double time_ = 0;
 };
