@@ -135,8 +135,8 @@ class Joint final : public TemplatedElement<Joint, 2, 20>, public CoordinateOwne
   Load load_on_b(const State& state, const JointPose<double>& pose) const;
   Report rubbed(const State& state) const;
   void name_channels();
-  /// Channel of the rate of the coordinate along which surfaces slide, if it is the only one and the friction depends on its
-  /// speed alone; −1 otherwise.
+  /// Channel of the rate of the coordinate along which surfaces slide, if it is the only one, driven, and the friction depends
+  /// on its speed alone; −1 otherwise.
   int sliding_channel(const JointFriction& f) const;
 
   JointParts parts_;
@@ -149,8 +149,9 @@ class Joint final : public TemplatedElement<Joint, 2, 20>, public CoordinateOwne
   std::vector<Measure> angles_;         ///< angles whose turns are counted, in the order of the history
   std::vector<Channel> channels_;
   std::vector<Determined> gaps_;  ///< channels of gaps between two stops, each with that of its coordinate
-  /// A size of friction that follows from the pressing force and the speed: it has a corner where the sliding turns back, and
-  /// bends sharply below the speed at which friction is regularised.
+  /// A size of friction that follows from the pressing force and the speed of a drive: it has a corner where the sliding turns
+  /// back, and bends sharply below the speed at which friction is regularised. Where nothing imposes the speed, steps end there,
+  /// and friction between them is better known than the speed.
   struct Rub {
     Determined by;
     std::size_t friction;  ///< index into JointParts::friction

@@ -20,7 +20,7 @@ int Joint::sliding_channel(const JointFriction& f) const {
   if (f.law.rests || f.collar > 0 || (f.kind != Rubbing::journal && f.kind != Rubbing::guide)) return -1;
   const Measure along = f.kind == Rubbing::guide ? Measure::gap_1 : f.turn;
   for (std::size_t k = 0; k < parts_.coordinates.size(); ++k)
-    if (parts_.coordinates[k].measure == along) return 2 * static_cast<int>(k) + 1;
+    if (parts_.coordinates[k].measure == along && parts_.coordinates[k].drive.given()) return 2 * static_cast<int>(k) + 1;
   return -1;
 }
 
