@@ -74,10 +74,13 @@ class _Found:
     in_assembly: bool = False  #: outside of its instance
     notes: list[str] = field(default_factory=list)
 
+    def of_assembly(self, section: _Section) -> bool:
+        """Whether numbers and names in a section of this place are those of the assembly."""
+        return self.in_assembly and "INSTANCE" not in section.parameters
+
     def label(self, numbers: np.ndarray, section: _Section) -> np.ndarray:
         """Numbers as a section of this place has them."""
-        own = self.in_assembly and "INSTANCE" not in section.parameters
-        return numbers + OF_ASSEMBLY if own else numbers
+        return numbers + OF_ASSEMBLY if self.of_assembly(section) else numbers
 
     def key(self, name: str) -> str:
         """Of a name that is given here."""
@@ -94,8 +97,8 @@ class _Found:
             return [np.array([int(rest)])] if rest.isdigit() else sets.get(rest)
         if word.isdigit():
             return [self.label(np.array([int(word)]), section)]
-        own = self.in_assembly and "INSTANCE" not in section.parameters
-        return sets.get(ASSEMBLY + word.upper(), sets.get(word.upper())) if own else sets.get(word.upper())
+        of_part = sets.get(word.upper())
+        return sets.get(ASSEMBLY + word.upper(), of_part) if self.of_assembly(section) else of_part
 
     def names(self) -> dict[str, str]:
         """Of the groups, by key: a name of the part that the assembly has too begins with the instance."""

@@ -222,6 +222,11 @@ bool has_friction(const Assembler& assembler, int multiplier) {
 /// much.
 constexpr double as_exact = 10;
 
+/// The smallest multipliers, times their weights, with the same effect through these columns as each column of `x`.
+Eigen::MatrixXd least_alike(const ConstraintMatrix& columns, const Vector& weight, const Eigen::MatrixXd& x) {
+  return RowSpace(with_columns_scaled(columns.matrix, weight.cwiseInverse()), rank_tolerance, columns.rows.first_rows).part(x);
+}
+
 constexpr const char* usual_cure =
     "leave one of these directions free in one of the joints, or give it a stiffness instead (KM for teeth)";
 
@@ -394,7 +399,7 @@ std::vector<Vector> Redundancy::undetermined(const Configuration& c) {
     for (Eigen::Index k = 0; k < any.cols(); ++k)
       any(m, k) =
           assembler_.idle(static_cast<int>(m)) ? 0 : std::cos(0.7 + 1.2 * static_cast<double>(k) + 2.3 * static_cast<double>(m));
-  any -= RowSpace(with_columns_scaled(columns.matrix, weight.cwiseInverse()), rank_tolerance, columns.rows.first_rows).part(any);
+  any -= least_alike(columns, weight, any);
   for (const auto& column : any.colwise()) {
     const Vector change = column.cwiseQuotient(weight);
     const double largest = change.lpNorm<Eigen::Infinity>();
@@ -409,10 +414,7 @@ bool Redundancy::turn_flanks(const Configuration& here, const Vector& weight, co
   };
   const auto any_tooth = [&](const RedundantGroup& one) { return std::any_of(one.members.begin(), one.members.end(), is_tooth); };
   if (std::none_of(mobility_.groups.begin(), mobility_.groups.end(), any_tooth)) return false;
-  const ConstraintMatrix gradients(assembler_, here, ConstraintColumns::gradients);
-  const Vector even =
-      RowSpace(with_columns_scaled(gradients.matrix, weight.cwiseInverse()), rank_tolerance, gradients.rows.first_rows)
-          .part(forces);
+  const Vector even = least_alike({assembler_, here, ConstraintColumns::gradients}, weight, forces);
   constexpr double significant = 1e-9;
   const double least_counted = significant * forces.lpNorm<Eigen::Infinity>();
   const auto turns = [&](int m) { return is_tooth(m) && even[m] * least[m] < 0 && std::abs(least[m]) > least_counted; };
@@ -432,9 +434,7 @@ bool Redundancy::share(Configuration& c, bool last) {
   const Vector weight = constraint_sizes(assembler_) / extent;
   const Vector forces = Eigen::Map<const Vector>(c.multipliers.data(), weight.size()).cwiseProduct(weight);
   if (forces.isZero(0)) return false;
-  const ConstraintMatrix columns(assembler_, here, columns_kind());
-  Vector least =
-      RowSpace(with_columns_scaled(columns.matrix, weight.cwiseInverse()), rank_tolerance, columns.rows.first_rows).part(forces);
+  Vector least = least_alike({assembler_, here, columns_kind()}, weight, forces);
   constexpr int most_turns = 4;
   turns_ = !last && turns_ < most_turns && turn_flanks(here, weight, forces, least) ? turns_ + 1 : 0;
   Configuration shared = here;

@@ -57,6 +57,7 @@ Radau::Radau(SolverContext& context)
       references_(context.assembler, context.options.precision),
       now_(context, collocation_),
       weight_of_places_(collocation_.embedded.lpNorm<1>()),
+      weight_of_closing_(collocation_.inverse.rowwise().sum().cwiseProduct(collocation_.embedded).lpNorm<1>()),
       configurations_(static_cast<std::size_t>(collocation_.stages())),
       kept_(context.assembler, solver_),
       projection_(context, error_.wanted()) {
@@ -396,9 +397,8 @@ double Radau::local_error(const Configuration& from, double h, const Configurati
   const auto v = context_.motion.velocities(to);
   // what a drift has left open is closed at once, by all stages
   const double open = StepError::known + weight_of_places_ * open_;
-  const Eigen::VectorXd closing = collocation_.inverse.rowwise().sum().cwiseProduct(collocation_.embedded);
-  const double of_places = open + weight_of_places_ * drifted_open_,
-               of_speeds = open + weight * closing.lpNorm<1>() * drifted_open_;
+  const double of_places = open + weight_of_places_ * drifted_open_;
+  const double of_speeds = open + weight * weight_of_closing_ * drifted_open_;
   const auto judged = [&] {
     return std::max(error_.over_tolerance(places, v, h, of_places), error_.over_tolerance(speeds, v, h, of_speeds));
   };

@@ -113,6 +113,7 @@ class Radau final : public Dynamics {
   References references_;
   StageMotion now_;                                  ///< of the present step
   double weight_of_places_;                          ///< sum of the weights of stages in the embedded formula, by magnitude
+  double weight_of_closing_;                         ///< the same for velocities, where all stages move by as much
   double open_ = 0;                                  ///< End::open of the last accepted step
   double drifted_open_ = 0;                          ///< the same after a drift, until the next step
   Judged judged_;                                    ///< the last accepted step; step 0: none since the last event
