@@ -43,6 +43,10 @@ Schedule::Due Instants::show(const std::function<void(double, const Schedule::Du
     const Schedule::Due due = schedule_.within(time);
     restart = restart || due.restart;
     observer_.between(out_of_plane_.completed(c_), within_ != nullptr);
+    if (within_ && !step_.settled && observer_.has_fine_forces()) {
+      Configuration balanced = c_;
+      if (within_->balance(balanced)) observer_.take_balance(out_of_plane_.completed(balanced));
+    }
     if (due.frame) find_fields(c_);
     take(time, due);
   }

@@ -9,9 +9,21 @@
 #include <utility>
 
 #include "assembly/loads.hpp"
+#include "model/fine_forces.hpp"
 #include "model/masses.hpp"
 
 namespace engrane::observe {
+
+namespace {
+
+bool any_fine_forces(const Model& model) {
+  return std::any_of(model.parts.begin(), model.parts.end(), [](const Model::Part& part) {
+    const auto* fine = dynamic_cast<const FineForces*>(part.element.get());
+    return fine && fine->has_fine_forces();
+  });
+}
+
+}  // namespace
 
 std::vector<Channel> run_channels(const Model& model, bool moves) {
   const bool cells = has_cells(model);
@@ -63,6 +75,7 @@ Observer::Observer(Assembler& assembler, bool moves, const Selection& selection)
       values_(histories_.columns() + run_channels_.size(), 0.0),
       buckling_times_(
           assembler.model().commands.buckling ? static_cast<std::size_t>(assembler.model().commands.buckling->modes) : 0, 0.0),
+      fine_forces_(any_fine_forces(assembler.model())),
       cells_(has_cells(assembler.model())) {
   if (!cells_) return;
   for (const int p : assembler.own_parts()) mass_ += mass_of(assembler.model(), assembler.model().part(p));
@@ -136,7 +149,8 @@ void Observer::evaluate_histories(const Configuration& c, const Step& step) {
   auto out = std::copy(values.begin(), values.end(), values_.begin());
   for (const double value : {step.length, static_cast<double>(step.iterations), events_}) *out++ = value;
   out += put_energies(ledger_.balance());
-  for (const Vec3* part : {&ground.force, &ground.moment}) out = std::copy(part->data(), part->data() + 3, out);
+  put_ground(ground);
+  out += 6;
   if (assembler_.model().commands.path) {
     *out++ = c.load_time();
     *out++ = step.unstable;
@@ -191,6 +205,22 @@ void Observer::put_known(const Configuration& c, bool steady, std::span<const do
     const std::size_t count = one.determined.sources.size();
     values_[one.column] = one.at(c.load_time(), own.empty() ? all.subspan(one.first, count) : std::span<const double>(own));
   }
+}
+
+void Observer::take_balance(const Configuration& c) {
+  const std::vector<Reaction> reactions = supports_.at(c);
+  const std::vector<double>& values = histories_.evaluate(c, reactions);
+  const Resultant ground = supports_.resultant(c, reactions);
+  if (assembler_.rank() != 0) return;
+  const std::vector<const Channel*> all = channels();
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (all[i]->course != Channel::Course::step) values_[i] = values[i];
+  put_ground(ground);
+}
+
+void Observer::put_ground(const Resultant& ground) {
+  auto out = values_.begin() + channel("run", "GROUND_FORCE_X");
+  for (const Vec3* part : {&ground.force, &ground.moment}) out = std::copy(part->data(), part->data() + 3, out);
 }
 
 void Observer::back_to_end() {

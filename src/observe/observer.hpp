@@ -52,6 +52,10 @@ class Observer {
   /// evaluated from `c`: in a stiff element, the interpolation error would dominate. DeterminedChannels are functions of time
   /// and of the interpolated channels. Without `motion` `c` is the end of a drift, and only its time counts.
   void between(const Configuration& c, bool motion = true);
+  /// Whether forces between step ends are to be those of a balance there (FineForces).
+  bool has_fine_forces() const { return fine_forces_; }
+  /// After between(): replaces the values of nodes, elements and the ground by those of a configuration in equilibrium there.
+  void take_balance(const Configuration& c);
   /// Sets values() back to those of the last configuration observed.
   void back_to_end();
   /// Computes the fields of a configuration in equilibrium.
@@ -114,10 +118,13 @@ class Observer {
   std::vector<int> not_unique_;
   double events_ = 0;
   std::vector<double> buckling_times_;
+  bool fine_forces_;
   bool cells_;       ///< the model has cells
   double mass_ = 0;  ///< total mass, only if it has cells
 
   void evaluate_histories(const Configuration& c, const Step& step);
+  /// Writes force and moment of the ground to values().
+  void put_ground(const Resultant& ground);
   /// Writes the energies of the whole model to values(). Returns how many are adjacent: the strain energy is not.
   std::ptrdiff_t put_energies(const EnergyBalance& e);
   /// Adds the values of inside_ to the interpolation points, with the work that is known now.

@@ -8,6 +8,7 @@
 #include "elements/common/axis_angle.hpp"
 #include "elements/common/friction_law.hpp"
 #include "elements/common/stop_law.hpp"
+#include "model/fine_forces.hpp"
 #include "model/templated_element.hpp"
 
 namespace engrane::elements::cams {
@@ -40,7 +41,7 @@ struct CamParts {
 };
 
 /// A follower on the profile of a cam (docs/elements/cams/cam.md).
-class Cam final : public TemplatedElement<Cam, 2, 13> {
+class Cam final : public TemplatedElement<Cam, 2, 13>, public FineForces {
  public:
   Cam(int id, CamParts parts);
 
@@ -88,6 +89,7 @@ class Cam final : public TemplatedElement<Cam, 2, 13> {
 
   void count_turns(const State& state, std::span<double> scalars, std::span<double> history) const override;
   void switches(const State& state, std::span<Switch> values) const override;
+  bool has_fine_forces() const override { return parts_.friction.has_value(); }
   bool has_gaps() const override { return parts_.law.has_value(); }
   bool touches(const State& state) const override;
   void sliding(const State& state, std::span<Vec3> speeds) const override;

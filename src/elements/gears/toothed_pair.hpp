@@ -13,6 +13,7 @@
 #include "elements/gears/contact_channels.hpp"
 #include "elements/gears/tooth_contact.hpp"
 #include "model/elastic_teeth.hpp"
+#include "model/fine_forces.hpp"
 #include "model/grip.hpp"
 #include "model/templated_element.hpp"
 
@@ -24,7 +25,7 @@ namespace engrane::elements::gears {
 ///
 /// including the rows of its first two scalars; `ToothContact::act` writes the others.
 template <class Derived>
-class ToothedPair : public TemplatedElement<Derived, 2, 20>, public ElasticTeeth {
+class ToothedPair : public TemplatedElement<Derived, 2, 20>, public ElasticTeeth, public FineForces {
  public:
   ToothedPair(int id, std::array<int, 2> nodes, const ToothContact& contact, std::array<Scalar, 2> motions, int history,
               std::vector<Channel> channels)
@@ -78,6 +79,8 @@ class ToothedPair : public TemplatedElement<Derived, 2, 20>, public ElasticTeeth
     std::fill(scalars.begin(), scalars.end(), 0.0);
     std::fill(history.begin(), history.end(), 0.0);
   }
+  /// Friction of each pair of flanks changes with every pair that enters, leaves or passes the pitch point.
+  bool has_fine_forces() const override { return contact_.options().friction && contact_.options().friction->profile; }
   int tooth_deformation() const override { return contact_.elastic() ? 2 : -1; }
   double tooth_deflection(const State& state) const override {
     const ContactReport now = report(state);

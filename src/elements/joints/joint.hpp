@@ -12,6 +12,7 @@
 #include "elements/joints/joint_friction.hpp"
 #include "elements/joints/joint_measures.hpp"
 #include "model/determined_channels.hpp"
+#include "model/fine_forces.hpp"
 #include "model/templated_element.hpp"
 
 namespace engrane::elements::joints {
@@ -70,7 +71,7 @@ struct JointParts {
 
 /// Any joint between two nodes, as a list of constraints and free coordinates (joint_measures.hpp). The multipliers are forces
 /// and moments on B, in the joint axes carried by A.
-class Joint final : public TemplatedElement<Joint, 2, 20>, public CoordinateOwner, public DeterminedChannels {
+class Joint final : public TemplatedElement<Joint, 2, 20>, public CoordinateOwner, public DeterminedChannels, public FineForces {
  public:
   Joint(int id, JointParts parts);
   ~Joint() override;  // out of line: the class is large
@@ -91,6 +92,7 @@ class Joint final : public TemplatedElement<Joint, 2, 20>, public CoordinateOwne
   void observe(const State& state, std::span<double> values) const override;
   /// Coordinates of drives, and gaps between two stops.
   std::vector<Determined> determined() const override;
+  bool has_fine_forces() const override;
   double determine(int channel, double time, std::span<const double> sources) const override;
   /// Standard joint types that constrain a subset of the same directions.
   std::vector<Release> releases() const override;

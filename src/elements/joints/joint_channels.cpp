@@ -146,6 +146,11 @@ void Joint::observe(const State& state, std::span<double> values) const {
   }
 }
 
+bool Joint::has_fine_forces() const {
+  const auto reverses = [this](const JointFriction& f) { return !f.law.rests && sliding_channel(f) < 0; };
+  return std::any_of(parts_.friction.begin(), parts_.friction.end(), reverses);
+}
+
 std::vector<Joint::Determined> Joint::determined() const {
   std::vector<Determined> all = gaps_;
   all.insert(all.end(), sizes_.begin(), sizes_.end());
