@@ -312,9 +312,7 @@ std::array<double, 2> Attempt::sharper_steps() {
   if (rank_ == 0) {
     const auto [estimate, stated] = estimates();
     const bool again = trial_.may_repeat && estimate.trouble.empty() && estimate.error > wanted.target;
-    const std::string missed =
-        fmt::format("engrane: the error is estimated to be {:.2g} of the range of {}, more than the {:g} asked for: again, with ",
-                    estimate.error, estimate.channel, wanted.target);
+    const std::string missed = "engrane: " + estimate.miss(wanted.target) + ": again, with ";
     // what is found of a vibration depends on rounding, and with it on the number of processes: steps are not to
     const double follows = estimate.vibration > 0 ? std::stod(fmt::format("{:.1e}", estimate.follows_vibration())) : 0;
     if (again && follows > 0 && follows < wanted.longest) {

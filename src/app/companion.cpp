@@ -357,10 +357,11 @@ std::vector<Companion::Largest> Companion::largest_by_dimension() const {
 double Companion::noise_of(const Column& column, const std::vector<Largest>& all) const {
   const Dimension& own = column.dimension;
   const bool is_place = own.mass == 0 && own.time == 0, is_acceleration = own.mass == 0 && own.time == -2;
-  // iterations balance loads up to a part of those around, and with them accelerations
+  // iterations balance loads up to a part of those around, and with them powers and accelerations
   double noise = std::max(no_range * column.size(), precision_ * column.load);
   if (is_acceleration && column.component >= 0)
     for (const Column *x = &column - column.component, *k = x; k < x + 3; ++k) noise = std::max(noise, precision_ * k->size());
+  if (own == dimension::power) noise = std::max(noise, precision_ * column.size());
   // work that loads and drives do on one another, and nothing else
   if (column.owner == "run" && own == dimension::energy) noise = std::max(noise, no_range * handled_);
   // rates that lead no farther in the whole run are no more than such places

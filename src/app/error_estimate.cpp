@@ -15,6 +15,9 @@ namespace {
 constexpr double falling = 0.5;
 /// Differences no larger than others by more than this are about the same.
 constexpr double same = 2;
+/// Two runs of a chaotic motion soon differ by more than this part of the range. Smaller differences need one more run to show
+/// that they do not fall: a channel of small range may only begin to be followed.
+constexpr double much = 0.05;
 /// A step of this over ω loses 1.6e-5 of a vibration: a hundredth in 70 periods.
 constexpr double followed = 0.7;
 /// What is lost falls with a power of TOL between 0, while all of it is lost, and 1.75: a step loses (ωh)⁶, and TOL allows
@@ -24,7 +27,8 @@ constexpr double order_of_lost = 1.5;
 }  // namespace
 
 void ErrorEstimate::follow(const std::vector<double>& differences) {
-  constexpr std::size_t enough = 2, most = 4;
+  constexpr std::size_t most = 4;
+  const std::size_t enough = difference() > much ? 2 : 3;
   if (differences.size() < enough || difference() < falling * differences.front()) return;
   const auto [least, largest] = std::minmax({differences.end()[-2], differences.back(), difference()});
   // a vibration that the first runs damp makes later ones differ more; chaos makes all differ alike
@@ -75,6 +79,13 @@ double ErrorEstimate::tolerance_of(const AccuracyRung& rung) const {
   return error_at(rung.tolerance) <= rung.target ? rung.tolerance : std::min(rung.tolerance, tolerance_for(rung.target));
 }
 
+std::string ErrorEstimate::miss(double target) const {
+  const std::string asked = fmt::format("{:g}", target);
+  std::string found;
+  for (int digits = 2; digits <= 6 && (found.empty() || found == asked); ++digits) found = fmt::format("{:.{}g}", error, digits);
+  return fmt::format("the error is estimated to be {} of the range of {}, more than the {} asked for", found, channel, asked);
+}
+
 std::string ErrorEstimate::warning(double target, const std::string& sharper_failed) const {
   if (!trouble.empty()) return "the error is not estimated: " + trouble;
   if (error <= target) return {};
@@ -93,8 +104,7 @@ std::string ErrorEstimate::warning(double target, const std::string& sharper_fai
   else if (advice.empty())
     advice = longest > 0 ? fmt::format("take HMAX {:.1g} in .SUB", longest_for(target, {}))
                          : fmt::format("take TOL {:.1g} in .SUB", tolerance_for(target));
-  return fmt::format("the error is estimated to be {:.2g} of the range of {}, more than the {:g} asked for: {}", error, channel,
-                     target, advice);
+  return miss(target) + ": " + advice;
 }
 
 std::string ErrorEstimate::describe(double target) const {

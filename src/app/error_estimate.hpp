@@ -51,6 +51,8 @@ struct ErrorEstimate {
   double tolerance_for(double target) const;
   /// Tolerance with which a run of another setting would end: runs that miss its target are repeated (Attempt::sharper()).
   double tolerance_of(const AccuracyRung& rung) const;
+  /// States an error larger than the `target`.
+  std::string miss(double target) const;
   /// A warning if there is no estimate, or if it exceeds the `target`; otherwise empty. `sharper_failed`: why the run was not
   /// repeated with a smaller tolerance; empty if that may help.
   std::string warning(double target, const std::string& sharper_failed) const;
