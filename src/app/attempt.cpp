@@ -86,6 +86,7 @@ Attempt::Attempt(const Task& task, const Trial& trial, std::optional<Companion>&
       observer_(context_.assembler, moves(task.reading.model), select_histories(task.reading.model)),
       schedule_(task.reading.model.commands.stepping, task.reading.model.commands.archive),
       fast_turns_(task.reading.model, trial.options),
+      linked_turns_(task.reading.model),
       stability_(context_),
       energies_(context_, observer_),
       last_time_(task.reading.model.commands.stepping.start) {
@@ -185,6 +186,7 @@ bool Attempt::after_step(const Configuration& solved, const StepReport& step) {
   leave_at_once(false);
   forget_failures();
   fast_turns_.take(solved);
+  linked_turns_.take(solved);
   stability_.take(solved, step.last);
   find_buckling_modes(solved, step);
   // what follows is output, and may have the memory
@@ -378,7 +380,7 @@ int Attempt::finish() {
   if (rank_ == 0) {
     try {
       const std::string of_energy = complete_ ? energies_.remark(runner_->references()) : "";
-      for (const std::string& remark : {unresolved, of_energy, stability_.remark(), fast_turns_.remark(),
+      for (const std::string& remark : {unresolved, of_energy, stability_.remark(), fast_turns_.remark(), linked_turns_.remark(),
                                         complete_ ? looser_before() : "", context_.solver.remark()})
         if (!remark.empty()) writer_->warn(remark);
       if (runner_->started()) writer_->remember(runner_->now(), *runner_, false, true);

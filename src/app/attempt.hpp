@@ -11,6 +11,7 @@
 #include "app/energy_watch.hpp"
 #include "app/fast_turns.hpp"
 #include "app/instants.hpp"
+#include "app/linked_turns.hpp"
 #include "app/options.hpp"
 #include "app/read.hpp"
 #include "app/run_summary.hpp"
@@ -94,6 +95,7 @@ class Attempt {
   observe::Observer observer_;
   Schedule schedule_;
   FastTurns fast_turns_;
+  LinkedTurns linked_turns_;
   solve::StabilityWatch stability_;
   EnergyWatch energies_;
   std::optional<Writer> writer_;  ///< of rank 0

@@ -231,8 +231,12 @@ void Companion::find_loads(const References& references) {
   for (Column& column : columns_) {
     if (column.part < 0) continue;
     const Dimension& d = column.dimension;
+    const auto part = static_cast<std::size_t>(column.part);
     if (d == dimension::force || d == dimension::moment)
-      column.load = references.peak_on(static_cast<std::size_t>(column.part), d == dimension::moment);
+      column.load = precision_ * references.peak_on(part, d == dimension::moment);
+    // joints may be left open by a tenth of TOL, which is a lever for forces
+    if (d == dimension::moment || d == dimension::power)
+      column.load = std::max(column.load, estimate_.companion_tolerance * references.leverage_on(part));
   }
 }
 
@@ -358,10 +362,19 @@ double Companion::noise_of(const Column& column, const std::vector<Largest>& all
   const Dimension& own = column.dimension;
   const bool is_place = own.mass == 0 && own.time == 0, is_acceleration = own.mass == 0 && own.time == -2;
   // iterations balance loads up to a part of those around, and with them powers and accelerations
-  double noise = std::max(no_range * column.size(), precision_ * column.load);
+  double noise = no_range * column.size();
   if (is_acceleration && column.component >= 0)
     for (const Column *x = &column - column.component, *k = x; k < x + 3; ++k) noise = std::max(noise, precision_ * k->size());
-  if (own == dimension::power) noise = std::max(noise, precision_ * column.size());
+  if (own == dimension::power) {
+    const auto size = [&all](const Dimension& d) {
+      const auto found = std::find_if(all.begin(), all.end(), [&d](const Largest& l) { return l.dimension == d; });
+      return found == all.end() ? 0 : found->size;
+    };
+    const double moment = column.load + no_size * (size(dimension::moment) + extent_ * size(dimension::force));
+    noise = std::max({noise, precision_ * column.size(), moment * size(dimension::angular_velocity)});
+  } else {
+    noise = std::max(noise, column.load);
+  }
   // work that loads and drives do on one another, and nothing else
   if (column.owner == "run" && own == dimension::energy) noise = std::max(noise, no_range * handled_);
   // rates that lead no farther in the whole run are no more than such places

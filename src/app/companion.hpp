@@ -89,7 +89,7 @@ class Companion {
     int node = -1;                ///< index into Model::nodes; −1: not a channel of a node
     int component = -1;           ///< 0 to 2, of a vector of a node whose three columns are adjacent; −1: not one of these
     bool slides = false;          ///< the speed at which parts of an element slide: about zero where nothing slides
-    double load = 0;              ///< for a force or moment: the largest load on the nodes of its element
+    double load = 0;  ///< for a force or moment: noise that the loads on its element make; for a power: that of a moment
 
     void include(double value) {
       least = std::min(least, value);

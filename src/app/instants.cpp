@@ -16,7 +16,7 @@ Instants::Instants(Schedule& schedule, observe::Observer& observer, solve::OutOf
 
 void Instants::observe_inside(bool work) {
   // an event may have changed the accelerations at the end of the step, and a friction the law that balances forces
-  if (!within_ || step_.settled || (times_.empty() && (!work || !step_.events.empty()))) return;
+  if (!within_ || step_.settled || step_.drift || (times_.empty() && (!work || !step_.events.empty()))) return;
   const double begin = within_->from().time;
   // in general the error of the second derivatives of the motion is h⁴ times its sixth derivative, but not at these points
   for (const double part : observe::lobatto_points) {

@@ -12,6 +12,7 @@
 #include "app/plausibility.hpp"
 #include "app/selection.hpp"
 #include "elements/beams/beam.hpp"
+#include "elements/beams/shaft.hpp"
 
 namespace engrane::app {
 
@@ -42,9 +43,9 @@ void warn_of_undamped_beams(const deck::Deck& deck, const Model& model, Diagnost
   std::set<int> damped;  // materials
   for (const deck::Record& record : deck.records)
     if (const auto* material = record.get<deck::MaterialCard>(); material && material->damping > 0) damped.insert(record.id);
+  const auto is_undamped = [&damped](const auto* beams) { return beams && !beams->damping && !damped.contains(beams->material); };
   for (const deck::Record& record : deck.records) {
-    const auto* beam = record.get<elements::beams::BeamData>();
-    if (!beam || beam->damping || damped.contains(beam->material)) continue;
+    if (!is_undamped(record.get<elements::beams::BeamData>()) && !is_undamped(record.get<elements::beams::ShaftData>())) continue;
     diagnostics.warning(
         record.location,
         "the error that ACCURACY estimates leaves out waves along beams without DAMPING that are too fast for the steps",

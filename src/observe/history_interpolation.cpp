@@ -86,6 +86,10 @@ std::vector<double> HistoryInterpolation::at(double time, std::span<const double
         values[i] = latest_[i];
         break;
     }
+    // an angle that begins anew after a turn
+    if (moved.empty() && i < element_values_ && channel.dimension == dimension::angle &&
+        std::abs(after[i] - before[i]) > std::numbers::pi)
+      values[i] = part < 0.5 ? before[i] : after[i];
     values[i] = std::clamp(values[i], channel.low, channel.high);
   }
   for (std::size_t i = values.size(); astray && i < all.size(); ++i)

@@ -14,17 +14,6 @@
 
 namespace engrane::observe {
 
-namespace {
-
-bool any_fine_forces(const Model& model) {
-  return std::any_of(model.parts.begin(), model.parts.end(), [](const Model::Part& part) {
-    const auto* fine = dynamic_cast<const FineForces*>(part.element.get());
-    return fine && fine->has_fine_forces();
-  });
-}
-
-}  // namespace
-
 std::vector<Channel> run_channels(const Model& model, bool moves) {
   const bool cells = has_cells(model);
   std::vector<Channel> channels{
@@ -75,7 +64,7 @@ Observer::Observer(Assembler& assembler, bool moves, const Selection& selection)
       values_(histories_.columns() + run_channels_.size(), 0.0),
       buckling_times_(
           assembler.model().commands.buckling ? static_cast<std::size_t>(assembler.model().commands.buckling->modes) : 0, 0.0),
-      fine_forces_(any_fine_forces(assembler.model())),
+      fine_forces_(engrane::has_fine_forces(assembler.model())),
       cells_(has_cells(assembler.model())) {
   if (!cells_) return;
   for (const int p : assembler.own_parts()) mass_ += mass_of(assembler.model(), assembler.model().part(p));
@@ -184,13 +173,15 @@ void Observer::keep_ends() {
 void Observer::between(const Configuration& c, bool motion) {
   const bool steady = interpolation_->steady();
   const std::vector<double>* moved = nullptr;
-  if (!steady)
+  if (!motion) {
+    // lines between the ends of a drift
+  } else if (!steady)
     moved = &histories_.evaluate(c, supports_.at(c));
   else if (assembler_.rank() == 0)
     moved = &histories_.evaluate_nodes(c);
   if (assembler_.rank() != 0) return;
-  const std::span<const double> taken = motion || !steady ? std::span(*moved) : std::span<const double>();
-  put_known(c, steady, interpolation_->at(c.time, taken, steady ? histories_.node_columns() : 0, values_));
+  const std::span<const double> taken = moved ? std::span(*moved) : std::span<const double>();
+  put_known(c, steady || !motion, interpolation_->at(c.time, taken, steady ? histories_.node_columns() : 0, values_));
 }
 
 void Observer::put_known(const Configuration& c, bool steady, std::span<const double> sources) {

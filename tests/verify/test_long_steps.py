@@ -32,8 +32,8 @@ def deck(analysis: str, stepping: str) -> str:
 
 @pytest.mark.parametrize(("setting", "asked"), [("FAST", 1e-2), ("NORMAL", 1e-3), ("FINE", 1e-5)])
 def test_friction_of_teeth(setting: str, asked: float, tmp_path: Path) -> None:
-    """Steps of a fiftieth of the run, ten to a pitch, pass over the changes. A smaller TOL was no help; each sample
-    has its own balance now, and no run is made again."""
+    """Steps of a fiftieth of the run, ten to a pitch, pass over the changes. A smaller TOL was no help; each
+    sample has its own balance now, and no run is made again."""
     found = run(deck(f"ACCURACY {setting}", ""), tmp_path)
     fine = run(deck("SCHEME RADAU", "").replace("H 1E-3", "H 2.5E-5"), tmp_path, "fine")
     for channel in ("1/NORMAL_FORCE", "1/FRICTION_FORCE", "11/DRIVE_TORQUE"):

@@ -149,7 +149,7 @@ def test_the_dial_goes_on_from_an_equilibrium_in_space(tmp_path):
     text = deck(tmp_path, "rest").read_text(encoding="utf-8").replace("V 3 NF 1", "V 3")
     text = text.replace("N 0 1  AXIS 0 0 1", "N 0 1  AXIS 0 0 1 K 100 C 0.1")
     rest = text.replace("TYPE DYNAMIC", "TYPE STATIC").replace("H 0.001", "H 0.5")
-    moves = text.replace("TYPE DYNAMIC", 'TYPE DYNAMIC ACCURACY FAST RESTART "rest"')
+    moves = text.replace("TYPE DYNAMIC", 'TYPE DYNAMIC ACCURACY FAST RESTART "rest"').replace("V 3", "V 4")
     (tmp_path / "rest.dat").write_text(rest, encoding="utf-8")
     (tmp_path / "moves.dat").write_text(moves.replace("TF 1.0", "TF 3"), encoding="utf-8")
     run(tmp_path, "rest.dat")

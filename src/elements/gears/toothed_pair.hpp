@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -81,6 +82,9 @@ class ToothedPair : public TemplatedElement<Derived, 2, 20>, public ElasticTeeth
   }
   /// Friction of each pair of flanks changes with every pair that enters, leaves or passes the pitch point.
   bool has_fine_forces() const override { return contact_.options().friction && contact_.options().friction->profile; }
+  std::optional<Repetition> repetition() const override {
+    return has_fine_forces() ? Repetition{0, static_cast<double>(contact_.geometry().teeth)} : std::optional<Repetition>();
+  }
   int tooth_deformation() const override { return contact_.elastic() ? 2 : -1; }
   double tooth_deflection(const State& state) const override {
     const ContactReport now = report(state);

@@ -147,6 +147,15 @@ double References::peak_on(std::size_t part, bool turns) const {
   return largest;
 }
 
+double References::leverage_on(std::size_t part) const {
+  double largest = 0;
+  for (const int node : assembler_.model().parts[part].nodes) {
+    const auto i = static_cast<std::size_t>(node);
+    for (std::size_t k = 0; k < 3; ++k) largest = std::max(largest, part_of_lever * spans_[i] * largest_of_slot_[6 * i + k]);
+  }
+  return largest;
+}
+
 void References::take(const Configuration& c, const std::vector<double>& carried) {
   const Model& model = assembler_.model();
   find_signals(c);

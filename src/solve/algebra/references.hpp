@@ -31,6 +31,8 @@ class References {
   double peak(int equation) const;
   /// peak() on the nodes of any element: a component.
   double peak_on(std::size_t part, bool turns) const;
+  /// Largest moment so far that forces on the nodes of any element have with the lever at which they count as moments.
+  double leverage_on(std::size_t part) const;
   /// Reference length of an unknown's correction, or of a constraint violation; 1 radian for rotations, the largest value so far
   /// for signals of controllers.
   double length(int equation) const { return lengths_[static_cast<std::size_t>(equation)]; }

@@ -13,6 +13,7 @@
 #include "model/elastic_teeth.hpp"
 #include "solve/constraints/constraint_factors.hpp"
 #include "solve/constraints/diagnosis.hpp"
+#include "solve/constraints/meshes_at_start.hpp"
 #include "solve/constraints/open_loop.hpp"
 
 namespace engrane::solve {
@@ -224,6 +225,12 @@ void Start::assemble_once(Configuration& c, StartReport& report) {
   verify_imposed(c, wished, false);
   note_moved(given.nodes, c, report);
   if (report.remarks.empty()) remark_on_guesses(c, report);
+  std::vector<double> moves(c.nodes.size(), 0.0);
+  for (const StartReport::Moved& one : report.moved) moves[static_cast<std::size_t>(one.node)] = one.move;
+  if (std::string torn = remark_on_torn_mesh(assembler_.model(), moves, 0, "what closes the joints or sets their values moves",
+                                             "it begins strained. Give the coordinates of its nodes there");
+      !torn.empty())
+    report.remarks.push_back(std::move(torn));
 }
 
 Start::Closing Start::close(Configuration& c, std::span<const int> held, const Target& target,
@@ -533,6 +540,15 @@ void Start::fit(Configuration& c, Assembler::Metric metric, StartReport* report)
     fastest_slot = i;
   }
   if (report->largest_velocity_change > 0) report->velocity_changed_most = slot_name(assembler_.model(), fastest_slot);
+  std::vector<double> changes(c.nodes.size());
+  for (std::size_t n = 0; n < changes.size(); ++n) changes[n] = Eigen::Map<const Vec3>(&delta[6 * n]).norm();
+  constexpr double slow = 1e-6;  // moves the mesh by this part of the model in the whole run
+  const deck::SteppingCard& stepping = assembler_.model().commands.stepping;
+  if (std::string torn = remark_on_torn_mesh(assembler_.model(), changes, slow * extent / (stepping.end - stepping.start),
+                                             "the speed of joints and drives at the start moves",
+                                             "it begins with an impact. Give it its speed by .INI VIT GROUP … AXIS … AT … V");
+      !torn.empty())
+    report->remarks.push_back(std::move(torn));
   verify_imposed(c, wished, true);
   verify_coordinates(c, asked);
 }

@@ -47,6 +47,10 @@ void note_accelerations(const Assembler& assembler, const Configuration& c, int 
   if (carried >= 0) report.carried_most = assembler.numbering().describe(assembler.numbering().equation(carried));
 }
 
+[[noreturn]] void refuse_not_finite(Assembler& assembler, const Configuration& c) {
+  throw SolutionFailure(fmt::format("forces at t = {:.6g} are not finite: {}", c.time, explain_not_finite(assembler, c)));
+}
+
 /// Displacement from rest by a mean acceleration over a step of h, over that acceleration, by the trapezoidal rule.
 double give_of(double h) { return h * h / 4; }
 
@@ -308,7 +312,7 @@ bool Start::balance_softly(Configuration& c, double give, StartReport* report, c
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     // the whole of the accelerations is sought each time: forces follow them only through the stiffness in the matrix
     std::vector<double> right = out_of_balance(still, massless);
-    if (!std::isfinite(largest(right))) throw SolutionFailure("the forces at the start are not finite");
+    if (!std::isfinite(largest(right))) refuse_not_finite(assembler_, still);
     assembler_.projection(still, Assembler::Metric::dynamic, {}, assembler_.matrix(), give);
     std::vector<double> found = solve_balance(right, still, massless);
     for (std::size_t i = 0; i < a.size(); ++i) found[i] += a[i];
@@ -355,7 +359,7 @@ bool Start::balance_as_shared(Configuration& c, std::vector<double>& a, std::vec
     right = out_of_balance(c, massless);
     const double size = largest(right);
     if (report) note_accelerations(assembler_, c, iteration, *report);
-    if (!std::isfinite(size)) throw SolutionFailure("the forces at the start are not finite");
+    if (!std::isfinite(size)) refuse_not_finite(assembler_, c);
     if (size == 0) return true;
     most = std::max(most, size);
     idle = size < 0.5 * least ? 0 : idle + 1;

@@ -37,7 +37,6 @@ std::string positions(const Model& model, const StartReport& report) {
                     i == 0 ? "moved by   " : "           ", m.move < 1e-12 * model.extent() ? 0 : m.move, unit, m.turn / degree);
   }
   if (report.moved.size() > most_rows) text += fmt::format("     and {} more\n", report.moved.size() - most_rows);
-  for (const std::string& remark : report.remarks) text += "     warning: " + remark + "\n";
   return text;
 }
 
@@ -57,6 +56,7 @@ std::string describe_start(const Model& model, const StartReport& report) {
       text += fmt::format("changed by up to {:.4g}, at {}, to fit joints and drives; those given opened {} fastest\n",
                           report.largest_velocity_change, report.velocity_changed_most, report.rate_violated_most);
   }
+  for (const std::string& remark : report.remarks) text += "     warning: " + remark + "\n";
   if (report.massless > 0)
     text += fmt::format("     {} without mass, {}: kept in equilibrium with springs and dampers\n",
                         report.massless == 1 ? "1 motion" : fmt::format("{} motions", report.massless),

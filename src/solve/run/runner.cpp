@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "assembly/configuration_snapshot.hpp"
+#include "model/fine_forces.hpp"
 #include "model/jump.hpp"
 #include "model/pulses.hpp"
 #include "model/speed_jumps.hpp"
@@ -77,7 +78,8 @@ Runner::Runner(SolverContext& context, Scheme& scheme)
       locator_(context, scheme),
       control_(options_, scheme.order_of_error()),
       now_(context.numbering.reference_configuration(options_.begin)),
-      h_(control_.active() ? std::min(options_.step, options_.longest) : options_.step) {}
+      h_(control_.active() ? std::min(options_.step, options_.longest) : options_.step),
+      within_drifts_(control_.active() && options_.moves() && has_fine_forces(context.model)) {}
 
 bool Runner::run(const StepCallback& after_step, const std::function<void(const StartReport&)>& started) {
   after_step_ = &after_step;
@@ -374,6 +376,7 @@ bool Runner::drift(double time, double target) {
   const double begun = now_.time;
   double size = arrives ? left : time;
   // a drift takes the mean of the forces at its ends: a force that jumps at the event must act only after it
+  if (within_drifts_) before_drift_ = now_;
   if (const double before = before_event(size); before > 0) {
     scheme_.drift(now_, before);
     size -= before;
@@ -383,6 +386,7 @@ bool Runner::drift(double time, double target) {
     const bool tells = control_.active() && now_.time > begun && now_.time + size > now_.time;
     if (tells && !accepted(before, false, false)) return false;
     pending_drift_ = 0;
+    if (within_drifts_) before_drift_ = now_;
   }
   scheme_.drift(now_, size);
   locator_.forget();
@@ -464,8 +468,11 @@ bool Runner::accepted(double size, bool regular, bool solved) {
   step_.last = over();
   step_.settled = unsettled_.has_value();
   step_.within = nullptr;
-  if (control_.active() && solved)
-    step_.within = [this] { return scheme_.within(next_, unsettled_ ? *unsettled_ : now_, ended_); };
+  step_.drift = !solved;
+  if (control_.active() && (solved || within_drifts_))
+    step_.within = [this] {
+      return scheme_.within(step_.drift ? before_drift_ : next_, unsettled_ ? *unsettled_ : now_, ended_, step_.drift);
+    };
   step_.chatter = locator_.chatters();
   const bool go_on = (*after_step_)(now_, step_);
   step_.cuts = step_.locating = 0;

@@ -20,7 +20,8 @@ struct StepReport {
   bool corner = false;   ///< a function of time has a corner at the end of the step, or equilibria have jumped within it
   bool impulse = false;  ///< the speed of a drive has jumped, and the velocities with it
   bool regular = true;   ///< false: the step ended for an event, not at a multiple of H or after a cut
-  /// Returns the motion within the step; set with a tolerance only, and empty if the step is but a drift across an event.
+  bool drift = false;    ///< across an event, much shorter than a step
+  /// Returns the motion within the step; set with a tolerance only, and within a drift only in models with FineForces.
   std::function<std::unique_ptr<Within>()> within;
   bool settled = false;       ///< frictions came to rest or gave way at its end: forces within belong to the state before
   int locating = 0;           ///< attempts spent on locating an event before this step
@@ -141,6 +142,8 @@ class Runner {
   std::optional<double> corner_;              ///< corner of a function of time that is being approached
   bool beside_even_ = false;                  ///< now_ is, or leads to, a corner between the ends of even steps
   std::optional<double> jumped_at_;           ///< end of the last jump of equilibria
+  bool within_drifts_;                        ///< the motion within drifts is needed
+  Configuration before_drift_;                ///< in this case, where the last one began
   double pending_drift_ = 0;                  ///< time to drift across the event just before which the last step ended
   StepReport step_;
 };

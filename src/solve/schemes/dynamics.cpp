@@ -26,8 +26,8 @@ Dynamics::Dynamics(SolverContext& context) : Scheme(context), error_(context.ass
 
 class Dynamics::Inside : public Within {
  public:
-  Inside(Dynamics& scheme, const Configuration& from, const Configuration& to, std::span<const double> scalars)
-      : Within(from, to), scheme_(scheme), motion_(scheme.context_.motion, from, to, scalars) {}
+  Inside(Dynamics& scheme, const Configuration& from, const Configuration& to, std::span<const double> scalars, bool drift)
+      : Within(from, to), scheme_(scheme), motion_(scheme.context_.motion, from, to, scalars), drift_(drift) {}
 
   void at(double time, Configuration& c) override {
     const MotionSlots& slots = scheme_.context_.motion;
@@ -36,6 +36,7 @@ class Dynamics::Inside : public Within {
     motion_.place(time, now_, c);
     c.h = time - from().time;
     auto v = slots.velocities(c), a = slots.accelerations(c);
+    if (drift_) follow_speeds(c.h, v);
     slots.prescribe_rates(time, v);
     slots.prescribe_accelerations(time, a);
     slots.set_velocities(v, c);
@@ -48,13 +49,26 @@ class Dynamics::Inside : public Within {
   bool balance(Configuration& c) override { return scheme_.restore_balance(c); }
 
  private:
+  /// Sets the velocities a time `gone` after the beginning to the cubic that has those of both ends and their slopes. A drift
+  /// leaves positions accurate to second order only, from which speeds that nearly vanish would not follow.
+  void follow_speeds(double gone, std::vector<double>& v) const {
+    const MotionSlots& slots = scheme_.context_.motion;
+    const double h = to().time - from().time, s = gone / h, r = 1 - s;
+    const auto v0 = slots.velocities(from()), v1 = slots.velocities(to()), a0 = slots.accelerations(from()),
+               a1 = slots.accelerations(to());
+    for (std::size_t i = 0; i < v.size(); ++i)
+      v[i] = r * r * ((1 + 2 * s) * v0[i] + s * h * a0[i]) + s * s * ((1 + 2 * r) * v1[i] - r * h * a1[i]);
+  }
+
   Dynamics& scheme_;
   Interpolation motion_;
   Interpolation::Motion now_;
+  bool drift_;
 };
 
-std::unique_ptr<Within> Dynamics::within(const Configuration& from, const Configuration& to, std::span<const double> scalars) {
-  return std::make_unique<Inside>(*this, from, to, scalars);
+std::unique_ptr<Within> Dynamics::within(const Configuration& from, const Configuration& to, std::span<const double> scalars,
+                                         bool drift) {
+  return std::make_unique<Inside>(*this, from, to, scalars, drift);
 }
 
 Configuration Dynamics::glide(const Configuration& c, double h) const {

@@ -21,7 +21,8 @@ class Dynamics : public Scheme {
   double drift_error(const Configuration& c, double h) override;
   std::optional<Configuration> settle_friction(Configuration& c) override;
   void take_over(Configuration& c) override;
-  std::unique_ptr<Within> within(const Configuration& from, const Configuration& to, std::span<const double> scalars) override;
+  std::unique_ptr<Within> within(const Configuration& from, const Configuration& to, std::span<const double> scalars,
+                                 bool drift) override;
   void save(Snapshot& snapshot) const override;
   void load(const Snapshot& snapshot) override;
 
@@ -29,9 +30,8 @@ class Dynamics : public Scheme {
   /// Implements Within::balance().
   virtual bool restore_balance(Configuration& /*c*/) { return false; }
 
-  /// Starts the scheme's memory from `c`, a solution at the start of the run. `softened`: its accelerations have been softened
-  /// (Start::soften).
-  virtual void start_memory(const Configuration& c, const MasslessMotions* massless, bool softened) = 0;
+  /// Starts the scheme's memory from `c`, a solution at the start of the run.
+  virtual void start_memory(const Configuration& c, const MasslessMotions* massless) = 0;
   /// Starts that memory again after an event, at which forces may set in; may change accelerations of `c` as soften() does.
   virtual void restart_memory(Configuration& c) = 0;
 

@@ -38,9 +38,9 @@ StartReport Dynamics::start(Configuration& c) {
   if (context_.options.family != SolverOptions::Family::radau)
     for (int pass = 0; pass < 2 && settle_signals(c, c, 0, context_.options.step); ++pass)
       context_.start.balance_accelerations(c, 12, &report, none);
-  const bool softened = soften(c, context_.options.step, none, &report);
+  soften(c, context_.options.step, none, &report);
   soften_signals(c, context_.options.step);
-  start_memory(c, none, softened);
+  start_memory(c, none);
   return report;
 }
 

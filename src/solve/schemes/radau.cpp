@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "assembly/configuration_snapshot.hpp"
+#include "model/fine_forces.hpp"
 #include "solve/constraints/constraint_factors.hpp"
 #include "solve/schemes/snapshot_part.hpp"
 
@@ -60,7 +61,8 @@ Radau::Radau(SolverContext& context)
       weight_of_closing_(collocation_.inverse.rowwise().sum().cwiseProduct(collocation_.embedded).lpNorm<1>()),
       configurations_(static_cast<std::size_t>(collocation_.stages())),
       kept_(context.assembler, solver_),
-      projection_(context, error_.wanted()) {
+      projection_(context, error_.wanted()),
+      fine_forces_(has_fine_forces(context.model)) {
   for (std::size_t i = 0; i < configurations_.size(); ++i) {
     *residuals_.emplace_back().out() = context.assembler.new_vector();
     *changes_.emplace_back().out() = context.assembler.new_vector();
@@ -82,7 +84,7 @@ StartReport Radau::start(Configuration& c) {
   return Dynamics::start(c);
 }
 
-void Radau::start_memory(const Configuration&, const MasslessMotions*, bool) { forget(); }
+void Radau::start_memory(const Configuration&, const MasslessMotions*) { forget(); }
 
 void Radau::restart_memory(Configuration& c) {
   forget();
@@ -365,6 +367,7 @@ Outcome Radau::attempt(const Configuration& from, double h, Configuration& to) {
   std::optional<double> error;
   if (error_.wanted()) error = local_error(from, h, to, report.coupled);
   tried_.judged = {h, error.value_or(0)};
+  if (error) error = std::max(*error, error_.over_turn(context_.motion.velocities(to), h, order_of_error()));
   if (error && !(*error <= 1)) return {std::move(report), error};  // the step will be rejected
   if (constrained() && !fit_end(to)) {
     report.converged = false;

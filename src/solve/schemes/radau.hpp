@@ -40,7 +40,9 @@ class Radau final : public Dynamics {
   /// Moves `c` by the kept matrices until its forces balance, with at most `most` corrections; a single one (`most` = 1) is not
   /// checked. False if they do not lead there.
   bool balance_near(Configuration& c, int most);
-  void start_memory(const Configuration& c, const MasslessMotions* massless, bool softened) override;
+  /// Corrects accelerations along constraints, by the kept matrices, to those that keep these closed. False if that fails.
+  bool fit_along_constraints(Configuration& c);
+  void start_memory(const Configuration& c, const MasslessMotions* massless) override;
   void restart_memory(Configuration& c) override;
 
   /// A step and the estimate of its error.
@@ -130,6 +132,7 @@ class Radau final : public Dynamics {
   bool factored_ = false;     ///< the solver has their factors, and so it would after a restart at the beginning of the step
   std::vector<double> kept_scale_;
   EndProjection projection_;
+  bool fine_forces_;  ///< of the model
 };
 
 }  // namespace engrane::solve

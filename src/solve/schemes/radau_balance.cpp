@@ -11,6 +11,19 @@ namespace engrane::solve {
 
 namespace {
 
+/// Removes the rows of constraints from a residual.
+void ignore_constraints(const Assembler& assembler, Vec residual) {
+  PetscInt begin = 0, end = 0;
+  check_petsc(VecGetOwnershipRange(residual, &begin, &end));
+  PetscScalar* values = nullptr;
+  check_petsc(VecGetArray(residual, &values));
+  for (PetscInt row = begin; row < end; ++row) {
+    const Unknown& u = assembler.numbering().unknown(static_cast<int>(row));
+    if (u.multiplier && !assembler.released(u.slot - assembler.numbering().motion_slots())) values[row - begin] = 0;
+  }
+  check_petsc(VecRestoreArray(residual, &values));
+}
+
 /// Corrections that balance an instant within a step: 2 to 4 with matrices of its place, more with earlier ones.
 constexpr int most_balance_corrections = 12;
 
@@ -34,7 +47,7 @@ bool Radau::restore_balance(Configuration& c) {
     const bool moved = balance_near(c, 1);
     context_.motion.set_velocities(v, c);
     context_.motion.set_accelerations(a, c);
-    return moved && balance_near(c, most_balance_corrections);
+    return moved && fit_along_constraints(c) && balance_near(c, most_balance_corrections);
   };
   if (!factored_ || !found()) {
     // Matrices good enough for the step may not be so here; the next phase must not find those of this place.
@@ -52,6 +65,32 @@ bool Radau::restore_balance(Configuration& c) {
       c = before;
       return false;
     }
+  if (!fine_forces_) return true;
+  // Corrections by matrices without the slope of such forces change velocities by more than these are off.
+  context_.motion.set_velocities(v, c);
+  projection_.begin(c);
+  return projection_.fit_accelerations(c, massless_at(c));
+}
+
+bool Radau::fit_along_constraints(Configuration& c) {
+  if (!constrained()) return true;
+  Assembler& assembler = context_.assembler;
+  const Numbering& numbering = context_.numbering;
+  std::vector<double> phi, rate, second, right(static_cast<std::size_t>(numbering.equations()), 0.0), y(context_.motion.size());
+  assembler.constraint_rates(c, phi, rate, second);
+  for (std::size_t e = 0; e < right.size(); ++e) {
+    const Unknown& u = numbering.unknown(static_cast<int>(e));
+    if (!u.multiplier) continue;
+    const int m = u.slot - numbering.motion_slots();
+    if (!assembler.released(m)) right[e] = -assembler.scale()[static_cast<std::size_t>(m)] * second[static_cast<std::size_t>(m)];
+  }
+  // the matrix of balance_near() is that of inertia but for the square of the rate, and beside it stiff parts are rigid
+  assembler.spread(right, residuals_[0]);
+  if (!solver_.solve_real(residuals_[0], changes_[0])) return false;
+  context_.motion.scatter(assembler.gather(changes_[0]), y);
+  auto a = context_.motion.accelerations(c);
+  for (std::size_t slot = 0; slot < y.size(); ++slot) a[slot] += y[slot];
+  context_.motion.set_accelerations(a, c);
   return true;
 }
 
@@ -68,8 +107,10 @@ bool Radau::balance_near(Configuration& c, int most) {
     const Imbalance found = imbalance(assembler, references_, residuals_[0]);
     const double left = std::max(found.largest(), found.constraint_force);
     if (found.within(precision)) return true;
-    if (k == most || !std::isfinite(left) || left > 0.5 * left_two_before || !solver_.solve_real(residuals_[0], changes_[0]))
-      return false;
+    if (k == most || !std::isfinite(left) || left > 0.5 * left_two_before) return false;
+    // closed constraints: their rounding would count as accelerations
+    if (most > 1 && found.constraint_force <= precision) ignore_constraints(assembler, residuals_[0]);
+    if (!solver_.solve_real(residuals_[0], changes_[0])) return false;
     left_two_before = std::exchange(left_before, left);
     const auto change = assembler.gather(changes_[0]);
     std::fill(y.begin(), y.end(), 0.0);

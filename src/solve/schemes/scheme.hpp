@@ -65,10 +65,10 @@ class Scheme {
   virtual const Course* course() const { return nullptr; }
   /// Power of the step with which Outcome::error grows.
   virtual int order_of_error() const { return 1; }
-  /// Motion within the step that was accepted last; nullptr if there is none. Valid until the next attempt. `scalars`: those of
-  /// its end before whole turns were removed.
+  /// Motion within the step that was accepted last, or within a drift(); nullptr if there is none. Valid until the next attempt.
+  /// `scalars`: those of its end before whole turns were removed.
   virtual std::unique_ptr<Within> within(const Configuration& /*from*/, const Configuration& /*to*/,
-                                         std::span<const double> /*scalars*/) {
+                                         std::span<const double> /*scalars*/, bool /*drift*/) {
     return nullptr;
   }
   /// The accepted configuration is at a corner of a function of time: what lies before it says little about what follows.

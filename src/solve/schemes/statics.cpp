@@ -301,7 +301,8 @@ void Statics::pass_corner(const Configuration& c) {
   if (error_.wanted()) begin_path(c.time, c.multipliers);
 }
 
-std::unique_ptr<Within> Statics::within(const Configuration& from, const Configuration& to, std::span<const double>) {
+std::unique_ptr<Within> Statics::within(const Configuration& from, const Configuration& to, std::span<const double>,
+                                        bool /*drift*/) {
   return std::make_unique<Inside>(*this, from, to);
 }
 

@@ -28,7 +28,8 @@ class Statics : public Scheme {
   void accept() override;
   int order_of_error() const override { return static_cast<int>(points); }
   void pass_corner(const Configuration& c) override;
-  std::unique_ptr<Within> within(const Configuration& from, const Configuration& to, std::span<const double> scalars) override;
+  std::unique_ptr<Within> within(const Configuration& from, const Configuration& to, std::span<const double> scalars,
+                                 bool drift) override;
   void save(Snapshot& snapshot) const override;
   void load(const Snapshot& snapshot) override;
 

@@ -34,6 +34,10 @@ class StepError {
   /// slot. The velocities at the end of the step are included in the ranges. The rounding of positions does not count, nor what
   /// is `open` (over a length, or in radians).
   double over_tolerance(std::span<const double> rates, std::span<const double> velocities, double h, double open = known) const;
+  /// Angle of the node that turns farthest in a step of h over the largest that results within the step can follow, or of
+  /// FineForces over the largest at which their work can be integrated; to the power `order` with which errors grow. It may
+  /// exceed 1 no more than other errors.
+  double over_turn(std::span<const double> velocities, double h, int order) const;
   /// Violation, over a length or in radians, that joints may have at the end of a step of h so that what the next step closes
   /// is negligible beside its tolerance; at least `known`.
   double may_be_open(std::span<const double> velocities, double h) const;
@@ -67,7 +71,14 @@ class StepError {
   /// Tolerance of each group: what the error of displacements over the length of a step may be.
   std::vector<double> allowed(std::span<const double> velocities) const;
 
-  double tolerance_;
+  double tolerance_, longest_turn_;
+  std::size_t nodes_;
+  /// A scalar's motion slot, and the angle of FineForces over it.
+  struct Repeating {
+    std::size_t slot;
+    double factor;
+  };
+  std::vector<Repeating> repeating_;
   bool statics_;
   std::vector<Group> groups_;
   std::vector<double> least_, largest_;

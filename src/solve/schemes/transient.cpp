@@ -150,7 +150,8 @@ std::optional<double> Transient::local_error(std::span<const double> a0, double 
   const double part = std::abs(1.0 / 6 - scheme_.beta - 0.5 * (scheme_.alpha_m - scheme_.alpha_f));
   std::vector<double> rates(a0.size());
   for (std::size_t i = 0; i < rates.size(); ++i) rates[i] = h * part * (tried_[i] - a0[i]);
-  return error_.over_tolerance(rates, context_.motion.velocities(to), h);
+  const auto v = context_.motion.velocities(to);
+  return std::max(error_.over_tolerance(rates, v, h), error_.over_turn(v, h, order_of_error()));
 }
 
 bool Transient::leaves(std::span<const double> increments) const {

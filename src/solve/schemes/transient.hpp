@@ -37,12 +37,12 @@ class Transient final : public Dynamics {
  private:
   /// Starts the scheme's memory for steps of h from `c`, whose velocities and accelerations are consistent; the slope of v̇ is
   /// taken over `span`.
-  void start_memory(const Configuration& c, double h, double span, const MasslessMotions* massless, bool softened);
-  void start_memory(const Configuration& c, const MasslessMotions* massless, bool softened) override;
+  void start_memory(const Configuration& c, double h, double span, const MasslessMotions* massless);
+  void start_memory(const Configuration& c, const MasslessMotions* massless) override;
   void restart_memory(Configuration& c) override;
-  /// d/dt of v̇ at `c`, from balances over the time `span`; with `softened`, of accelerations softened for steps of h.
-  std::vector<double> slope_of_accelerations(const Configuration& c, double h, double span, const MasslessMotions* massless,
-                                             bool softened) const;
+  /// d/dt of v̇ at `c`, from balances over the time `span`, softened for steps of h.
+  std::vector<double> slope_of_accelerations(const Configuration& c, double h, double span,
+                                             const MasslessMotions* massless) const;
 
   /// Velocities with which a step of h from `from` begins: those of the scheme, which differ from consistent ones by a part
   /// that grows with the square of the step.

@@ -16,21 +16,21 @@ constexpr double unlike = 0.5;
 
 }  // namespace
 
-void Transient::start_memory(const Configuration& c, const MasslessMotions* massless, bool softened) {
+void Transient::start_memory(const Configuration& c, const MasslessMotions* massless) {
   const double h = context_.options.step;
-  start_memory(c, h, h, massless, softened);
+  start_memory(c, h, h, massless);
 }
 
 void Transient::restart_memory(Configuration& c) {
   const double h = context_.options.step;
   const MasslessMotions* massless = massless_at(c);
-  const bool softened = soften(c, h, massless);
+  soften(c, h, massless);
   soften_signals(c, h);
-  start_memory(c, h, slope_span * h, massless, softened);
+  start_memory(c, h, slope_span * h, massless);
 }
 
 std::vector<double> Transient::slope_of_accelerations(const Configuration& c, double h, double span,
-                                                      const MasslessMotions* massless, bool softened) const {
+                                                      const MasslessMotions* massless) const {
   // From accelerations half a span and a span ahead, (4 a_½ − 3 a_0 − a_1)/span: of second order, since what glide() leaves out
   // of the velocities, four times as much at the end as halfway, cancels as well. Over a whole step it is also the slope for
   // models whose forces change much faster than a step is long.
@@ -38,7 +38,8 @@ std::vector<double> Transient::slope_of_accelerations(const Configuration& c, do
     Configuration later = glide(c, time);
     if (span == h) settle_signals(later, c, time, h);  // as at the start itself
     context_.start.balance_accelerations(later, span < h ? 1 : 12, nullptr, massless);
-    if (softened) soften(later, h, massless);
+    // also where `c` itself needs it not: speeds may excite what steps do not resolve, where nothing accelerates yet
+    soften(later, h, massless);
     soften_signals(later, h);
     return context_.motion.accelerations(later);
   };
@@ -59,7 +60,7 @@ std::vector<double> Transient::slope_of_accelerations(const Configuration& c, do
   return slope;
 }
 
-void Transient::start_memory(const Configuration& c, double h, double span, const MasslessMotions* massless, bool softened) {
+void Transient::start_memory(const Configuration& c, double h, double span, const MasslessMotions* massless) {
   algorithmic_ = context_.motion.accelerations(c);
   step_of_algorithmic_ = h;
   offset_.clear();
@@ -68,7 +69,7 @@ void Transient::start_memory(const Configuration& c, double h, double span, cons
   fitting_ = context_.motion.velocities(c);
   const double shift = scheme_.alpha_m - scheme_.alpha_f;
   if (shift == 0 && !constrained()) return;  // nothing depends on the slope
-  std::vector<double> slope = slope_of_accelerations(c, h, span, massless, softened);
+  std::vector<double> slope = slope_of_accelerations(c, h, span, massless);
   // accelerations are differenced over the span, and accurate to a few digits less than they have
   constexpr double known = 1e-11;
   if (!counts(slope, h * h * h, algorithmic_, known / span)) std::fill(slope.begin(), slope.end(), 0.0);
@@ -97,7 +98,7 @@ std::vector<double> Transient::renew_memory(const Configuration& from, double h)
   const MasslessMotions* massless = massless_at(c);
   context_.start.balance_accelerations(c, 3, nullptr, massless);
   const bool softened = soften(c, h, massless), signals = soften_signals(c, h);
-  start_memory(c, h, slope_span * h, massless, softened);
+  start_memory(c, h, slope_span * h, massless);
   return context_.motion.accelerations(softened || signals ? c : from);
 }
 
