@@ -62,7 +62,7 @@ def read(path: str | Path) -> RawMesh:
             if int(fields[0]) in row_of:
                 raise UserError(f"{path}: GRID {int(fields[0])} is given twice.")
             row_of[int(fields[0])] = len(points)
-            points.append([_number(word) for word in fields[2:5]])
+            points.append([_number(word, f"{path}: GRID {fields[0]}") for word in fields[2:5]])
         elif keyword in KINDS:
             kind, nodes = _cell(keyword, fields, path)
             if kind == "line" and len(nodes) < 2:  # a spring to the ground
@@ -158,6 +158,11 @@ def _cell(keyword: str, fields: list[str], path: str | Path) -> tuple[str, list[
     given = fields[2 : 2 + max(sizes)]
     which = next((k for k, size in enumerate(sizes) if not any(given[size:])), 0)
     kind, size = kinds[which], sizes[which]
+    for word in given[:size]:
+        if word and not word.isdecimal():
+            raise UserError(
+                f"{path}: cell {fields[0]} ({keyword}) has `{word}` where the label of a node stands."
+            )
     nodes = [int(word) for word in given[:size] if word]
     if len(nodes) != size and kind != "line":
         raise UserError(
@@ -168,9 +173,13 @@ def _cell(keyword: str, fields: list[str], path: str | Path) -> tuple[str, list[
     return kind, [nodes[k] for k in order] if order else nodes
 
 
-def _number(word: str) -> float:
+def _number(word: str, where: str) -> float:
     """Of Nastran, which has no need of a letter before the exponent: 1.5-3; nothing is zero."""
     try:
         return float(word or "0")
     except ValueError:
+        pass
+    try:
         return float(re.sub(r"(?<=[\d.])E?(?=[+-]\d+$)", "E", word.upper().replace("D", "E")))
+    except ValueError:
+        raise UserError(f"{where} has `{word}` where a number stands; is the field cut short?") from None

@@ -4,8 +4,12 @@ part, nodes of a set of elements, free surfaces, scalars of VTK, physical names 
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
+import pytest
+from engrane_post.errors import UserError
+from engrane_post.mesh_files import read
 from test_import import imported
 
 CUBE = """*NODE
@@ -98,3 +102,23 @@ def test_names_of_gmsh(command, tmp_path: Path) -> None:
     assert deck.groups["wall"] == ("MAILLES", [(1,)])
     assert deck.groups["wall faces"][0] == "FACES"
     assert nodes_of(deck, "wall nodes") == {1, 4}
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "told"),
+    [
+        ("1.0", ".5-", "GRID 2 has `.5-` where a number stands"),
+        (
+            "CTETRA,7,1,1,2,3,4",
+            "CTETRA,7,1,1,2,3,x",
+            "cell 7 (CTETRA) has `x` where the label of a node stands",
+        ),
+    ],
+)
+def test_a_damaged_field_of_a_bulk_data_file_is_named(old: str, new: str, told: str, tmp_path: Path) -> None:
+    """`.5-` is left of .5-3 in a field cut short; the file was said to be damaged or of another kind."""
+    path = tmp_path / "a.bdf"
+    text = "BEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,1.0,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\n"
+    path.write_text((text + "CTETRA,7,1,1,2,3,4\nENDDATA\n").replace(old, new, 1), encoding="utf-8")
+    with pytest.raises(UserError, match=re.escape(told)):
+        read(path)
