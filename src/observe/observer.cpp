@@ -173,11 +173,9 @@ void Observer::keep_ends() {
 void Observer::between(const Configuration& c, bool motion) {
   const bool steady = interpolation_->steady();
   const std::vector<double>* moved = nullptr;
-  if (!motion) {
-    // lines between the ends of a drift
-  } else if (!steady)
+  if (motion && !steady)
     moved = &histories_.evaluate(c, supports_.at(c));
-  else if (assembler_.rank() == 0)
+  else if (motion && assembler_.rank() == 0)
     moved = &histories_.evaluate_nodes(c);
   if (assembler_.rank() != 0) return;
   const std::span<const double> taken = moved ? std::span(*moved) : std::span<const double>();

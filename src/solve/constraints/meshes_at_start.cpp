@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 #include <vector>
 
 namespace engrane::solve {
@@ -19,7 +18,8 @@ constexpr double left_behind = 0.03, most_behind = 0.25;
 std::vector<int> meshes_of(const Model& model) {
   std::vector<int> first(model.nodes.size(), -1);
   const auto root = [&first](int node) {
-    while (first[static_cast<std::size_t>(node)] != node) node = first[static_cast<std::size_t>(node)];
+    const auto above = [&first](int of) -> int& { return first[static_cast<std::size_t>(of)]; };
+    while (above(node) != node) node = above(node) = above(above(node));
     return node;
   };
   for (const Model::Part& part : model.parts) {

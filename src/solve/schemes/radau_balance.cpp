@@ -69,7 +69,9 @@ bool Radau::restore_balance(Configuration& c) {
   // Corrections by matrices without the slope of such forces change velocities by more than these are off.
   context_.motion.set_velocities(v, c);
   projection_.begin(c);
-  return projection_.fit_accelerations(c, massless_at(c));
+  if (projection_.fit_accelerations(c, massless_at(c))) return true;
+  c = before;
+  return false;
 }
 
 bool Radau::fit_along_constraints(Configuration& c) {
