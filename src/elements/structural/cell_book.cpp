@@ -263,7 +263,8 @@ void CellBook::assign(const deck::Record& record, const deck::AssignmentCard& as
 }
 
 template <class Lacks>
-void CellBook::report_lack(const Lacks& lacks, const std::string& what, const std::string& cure) {
+void CellBook::report_lack(const Lacks& lacks, const std::string& what, const std::string& cure, std::string_view given_by) {
+  if (unknown_group_ && !given_by.empty()) return;  // it may be what that group was to have
   const Cell* first = nullptr;
   std::size_t count = 0;
   for (const Cell& cell : cells_) {
@@ -272,7 +273,12 @@ void CellBook::report_lack(const Lacks& lacks, const std::string& what, const st
     ++count;
   }
   const std::string others = count > 1 ? fmt::format(" (the first of {})", count) : "";
-  if (count > 0) diagnostics_.error(first->record->location, fmt::format("cell {} {}{}", first->record->id, what, others), cure);
+  if (count == 0) return;
+  const std::string text = fmt::format("cell {} {}{}", first->record->id, what, others);
+  if (given_by.empty())
+    diagnostics_.error(first->record->location, text, cure);
+  else
+    diagnostics_.missing(given_by, first->record->location, text, cure);
 }
 
 void CellBook::refuse_cold(const Temperatures& temperatures) {
@@ -370,12 +376,13 @@ void CellBook::make_sections(const NodePositions& nodes) {
     return hypothesis(cell) == Hypothesis::plane_stress && fits(cell) && !is_beam(cell);
   };
   report_lack([&](const Cell& cell) { return !cell.hypothesis && !is_solid_cell(cell) && !is_beam(cell); }, "has no formulation",
-              ".HYP MEMB BIDIM GROUP \"name\" (plane stress), DEFO PLAN (plane strain) or AXIS");
+              ".HYP MEMB BIDIM GROUP \"name\" (plane stress), DEFO PLAN (plane strain) or AXIS", ".HYP");
   report_lack([&](const Cell& cell) { return !is_beam(cell) && !fits(cell); }, "does not fit its formulation",
               "VOLUME is for solids, whose nodes hold a 0 (N 1 2 3 0 4); BEAM for two nodes, or three; others for plane cells");
-  report_lack([](const Cell& cell) { return !is_beam(cell) && !cell.material; }, "has no material", ".AEL I 1 J 9 K 1 MAT 1");
+  report_lack([](const Cell& cell) { return !is_beam(cell) && !cell.material; }, "has no material", ".AEL I 1 J 9 K 1 MAT 1",
+              ".AEL");
   report_lack([&](const Cell& cell) { return is_stress(cell) && cell.thickness == 0; }, "has no thickness",
-              "plane stress needs .PHP GROUP \"name\" THICK VAL t");
+              "plane stress needs .PHP GROUP \"name\" THICK VAL t", ".PHP");
   using Key = std::tuple<Hypothesis, int, double, double, int, const deck::Record*, int, double>;
   std::map<Key, std::shared_ptr<const CellSection>> sections;
   std::map<Key, int> numbers;
