@@ -264,7 +264,7 @@ void CellBook::assign(const deck::Record& record, const deck::AssignmentCard& as
 
 template <class Lacks>
 void CellBook::report_lack(const Lacks& lacks, const std::string& what, const std::string& cure, std::string_view given_by) {
-  if (unknown_group_ && !given_by.empty()) return;  // it may be what that group was to have
+  if (unknown_groups_in_.contains(given_by)) return;  // it may be what that group was to have
   const Cell* first = nullptr;
   std::size_t count = 0;
   for (const Cell& cell : cells_) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -144,17 +145,17 @@ class CellBook {
   void report_unknown_group(const deck::Record& record, const char* keyword, const std::string& name);
   const Cell* find(int cell) const;
   std::size_t index(int cell) const;
-  /// Reports one error for all cells for which `lacks` is true; not where a record of the command that they lack is at fault, or
-  /// a group that is not known.
+  /// Reports one error for all cells for which `lacks` is true; not where a record of the command `given_by`, which gives
+  /// what they lack, is at fault or names a group that is not known.
   template <class Lacks>
   void report_lack(const Lacks& lacks, const std::string& what, const std::string& cure, std::string_view given_by = {});
 
   static bool is_beam(const Cell& cell);
 
   Diagnostics& diagnostics_;
-  bool unknown_group_ = false;  ///< a group of elements was named that does not exist
-  bool linear_, lumped_;        ///< for all cells of the model: small displacements, lumped masses
-  std::vector<Cell> cells_;     ///< by number
+  std::set<std::string_view> unknown_groups_in_;  ///< commands of records that name groups which do not exist
+  bool linear_, lumped_;                          ///< for all cells of the model: small displacements, lumped masses
+  std::vector<Cell> cells_;                       ///< by number
   std::map<std::string, Group> groups_;
   std::map<std::string, std::vector<int>> faces_;
   std::map<int, const deck::Record*> materials_;

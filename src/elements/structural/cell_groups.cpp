@@ -118,7 +118,7 @@ CellBook::Group CellBook::members(const deck::Record& record, const std::vector<
 }
 
 void CellBook::report_unknown_group(const deck::Record& record, const char* keyword, const std::string& name) {
-  unknown_group_ = true;
+  unknown_groups_in_.insert(record.schema->command());
   std::vector<std::string> known;
   for (const auto& [key, group] : groups_) known.push_back(key);
   const std::string near = nearest(name, known);
