@@ -65,6 +65,10 @@ constexpr double same_range = 1.2;
 
 bool is_velocity(const Dimension& d) { return d == dimension::velocity || d == dimension::angular_velocity; }
 
+auto find_dimension(auto& all, const Dimension& d) {
+  return std::find_if(all.begin(), all.end(), [&d](const auto& one) { return one.dimension == d; });
+}
+
 /// The rotation vector of the same rotation that is nearest to `other`: as many turns about its axis are added as it takes.
 Vec3 nearest_rotation_vector(const Vec3& v, const Vec3& other) {
   constexpr double turn = 2 * std::numbers::pi;
@@ -350,7 +354,7 @@ double Companion::order_of(const Column& column, long steps, double assumed) con
 std::vector<Companion::Largest> Companion::largest_by_dimension() const {
   std::vector<Largest> all;
   for (const Column& column : columns_) {
-    auto found = std::find_if(all.begin(), all.end(), [&](const Largest& l) { return l.dimension == column.dimension; });
+    auto found = find_dimension(all, column.dimension);
     if (found == all.end()) found = all.insert(found, {column.dimension});
     found->range = std::max(found->range, column.range());
     found->size = std::max(found->size, column.size());
@@ -367,7 +371,7 @@ double Companion::noise_of(const Column& column, const std::vector<Largest>& all
     for (const Column *x = &column - column.component, *k = x; k < x + 3; ++k) noise = std::max(noise, precision_ * k->size());
   if (own == dimension::power) {
     const auto size = [&all](const Dimension& d) {
-      const auto found = std::find_if(all.begin(), all.end(), [&d](const Largest& l) { return l.dimension == d; });
+      const auto found = find_dimension(all, d);
       return found == all.end() ? 0 : found->size;
     };
     const double moment = column.load + no_size * (size(dimension::moment) + extent_ * size(dimension::force));

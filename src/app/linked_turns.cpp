@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <set>
 
 #include "math/angle.hpp"
@@ -44,8 +43,7 @@ std::string LinkedTurns::remark() const {
   const Model::Part& part = model_.parts[links_[farthest_]];
   return fmt::format(
       "node {} of {} turned by {:.3g} degrees at t = {:.6g}: with DISPLACEMENTS SMALL the mesh follows it to first order only, "
-      "which is "
-      "off by {:.0f} % there, and not beyond half a turn. Take DISPLACEMENTS LARGE",
+      "and not beyond half a turn. Displacements there are off by about {:.0f} %: take DISPLACEMENTS LARGE",
       model_.nodes[static_cast<std::size_t>(part.nodes[0])].id, part.name(), angle_ / degree, time_, 50 * angle_ * angle_);
 }
 

@@ -167,7 +167,9 @@ void Observer::keep_ends() {
   ledger_.integrate_smoothly();
   std::size_t element_values = 0;
   for (std::size_t t = 0; t < histories_.part_tables(); ++t) element_values += tables()[t].columns();
-  interpolation_.emplace(channels(), element_values, assembler_.comm());
+  const std::vector<const Channel*> all = channels();
+  for (const Channel* channel : all) of_steps_.push_back(channel->course == Channel::Course::step);
+  interpolation_.emplace(all, element_values, assembler_.comm());
 }
 
 void Observer::between(const Configuration& c, bool motion) {
@@ -201,9 +203,8 @@ void Observer::take_balance(const Configuration& c) {
   const std::vector<double>& values = histories_.evaluate(c, reactions);
   const Resultant ground = supports_.resultant(c, reactions);
   if (assembler_.rank() != 0) return;
-  const std::vector<const Channel*> all = channels();
   for (std::size_t i = 0; i < values.size(); ++i)
-    if (all[i]->course != Channel::Course::step) values_[i] = values[i];
+    if (!of_steps_[i]) values_[i] = values[i];
   put_ground(ground);
 }
 

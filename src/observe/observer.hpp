@@ -135,6 +135,7 @@ class Observer {
   /// interpolated sources.
   void put_known(const Configuration& c, bool steady, std::span<const double> sources);
   std::optional<HistoryInterpolation> interpolation_;  ///< once keep_ends() has been called
+  std::vector<bool> of_steps_;                         ///< from then on: values that belong to a whole step
   std::vector<double> sources_;  ///< of the values of Histories::known(), which are found from them between two instants
   struct Inside {
     double time;

@@ -152,8 +152,8 @@ class Joint final : public TemplatedElement<Joint, 2, 20>, public CoordinateOwne
   std::vector<Channel> channels_;
   std::vector<Determined> gaps_;  ///< channels of gaps between two stops, each with that of its coordinate
   /// A size of friction that follows from the pressing force and the speed of a drive: it has a corner where the sliding turns
-  /// back, and bends sharply below the speed at which friction is regularised. Where nothing imposes the speed, steps end there,
-  /// and friction between them is better known than the speed.
+  /// back, and bends sharply below the speed at which friction is regularised. Where nothing imposes the speed, such forces are
+  /// FineForces.
   struct Rub {
     Determined by;
     std::size_t friction;  ///< index into JointParts::friction

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <vector>
 
 namespace engrane::solve {
 
@@ -41,9 +40,9 @@ std::vector<int> meshes_of(const Model& model) {
 
 }  // namespace
 
-std::string remark_on_torn_mesh(const Model& model, std::span<const double> moved, double least, const std::string& what,
-                                const std::string& remedy) {
-  if (std::all_of(moved.begin(), moved.end(), [least](double move) { return move <= least; })) return {};
+void remark_on_torn_mesh(const Model& model, std::span<const double> moved, double least, const std::string& what,
+                         const std::string& remedy, std::vector<std::string>& remarks) {
+  if (std::all_of(moved.begin(), moved.end(), [least](double move) { return move <= least; })) return;
   const std::vector<int> mesh = meshes_of(model);
   struct Count {
     double most = 0;
@@ -68,11 +67,11 @@ std::string remark_on_torn_mesh(const Model& model, std::span<const double> move
              std::find(part.nodes.begin(), part.nodes.end(), count.fastest) != part.nodes.end();
     };
     const auto link = std::find_if(model.parts.begin(), model.parts.end(), holds);
-    return fmt::format("{} node {}{} and leaves {} of the {} nodes of its mesh behind: {}", what,
-                       model.nodes[static_cast<std::size_t>(count.fastest)].id,
-                       link == model.parts.end() ? "" : " of " + link->name(), count.behind, count.nodes, remedy);
+    remarks.push_back(fmt::format("{} node {}{} and leaves {} of the {} nodes of its mesh behind: {}", what,
+                                  model.nodes[static_cast<std::size_t>(count.fastest)].id,
+                                  link == model.parts.end() ? "" : " of " + link->name(), count.behind, count.nodes, remedy));
+    return;
   }
-  return {};
 }
 
 }  // namespace engrane::solve

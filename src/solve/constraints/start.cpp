@@ -227,10 +227,8 @@ void Start::assemble_once(Configuration& c, StartReport& report) {
   if (report.remarks.empty()) remark_on_guesses(c, report);
   std::vector<double> moves(c.nodes.size(), 0.0);
   for (const StartReport::Moved& one : report.moved) moves[static_cast<std::size_t>(one.node)] = one.move;
-  if (std::string torn = remark_on_torn_mesh(assembler_.model(), moves, 0, "what closes the joints or sets their values moves",
-                                             "it begins strained. Give the coordinates of its nodes there");
-      !torn.empty())
-    report.remarks.push_back(std::move(torn));
+  remark_on_torn_mesh(assembler_.model(), moves, 0, "what closes the joints or sets their values moves",
+                      "it begins strained. Give the coordinates of its nodes there", report.remarks);
 }
 
 Start::Closing Start::close(Configuration& c, std::span<const int> held, const Target& target,
@@ -544,11 +542,9 @@ void Start::fit(Configuration& c, Assembler::Metric metric, StartReport* report)
   for (std::size_t n = 0; n < changes.size(); ++n) changes[n] = Eigen::Map<const Vec3>(&delta[6 * n]).norm();
   constexpr double slow = 1e-6;  // moves the mesh by this part of the model in the whole run
   const deck::SteppingCard& stepping = assembler_.model().commands.stepping;
-  if (std::string torn = remark_on_torn_mesh(assembler_.model(), changes, slow * extent / (stepping.end - stepping.start),
-                                             "the speed of joints and drives at the start moves",
-                                             "it begins with an impact. Give it its speed by .INI VIT GROUP … AXIS … AT … V");
-      !torn.empty())
-    report->remarks.push_back(std::move(torn));
+  remark_on_torn_mesh(assembler_.model(), changes, slow * extent / (stepping.end - stepping.start),
+                      "the speed of joints and drives at the start moves",
+                      "it begins with an impact. Give it its speed by .INI VIT GROUP … AXIS … AT … V", report->remarks);
   verify_imposed(c, wished, true);
   verify_coordinates(c, asked);
 }

@@ -20,7 +20,7 @@ struct StepReport {
   bool corner = false;   ///< a function of time has a corner at the end of the step, or equilibria have jumped within it
   bool impulse = false;  ///< the speed of a drive has jumped, and the velocities with it
   bool regular = true;   ///< false: the step ended for an event, not at a multiple of H or after a cut
-  bool drift = false;    ///< across an event, much shorter than a step
+  bool drift = false;    ///< no step of the scheme: across an event, or over a jump of equilibria
   /// Returns the motion within the step; set with a tolerance only, and within a drift only in models with FineForces.
   std::function<std::unique_ptr<Within>()> within;
   bool settled = false;       ///< frictions came to rest or gave way at its end: forces within belong to the state before
