@@ -339,12 +339,13 @@ void Assembler::scale_multipliers(int part, std::span<double> k) const {
   }
 }
 
-void Assembler::tangent(const Configuration& configuration, Weights weights, Mat into) {
+void Assembler::tangent(const Configuration& configuration, Weights weights, Mat into, const Change& change) {
   static const PetscLogEvent event = log_event("Tangent");
   const LoggedTime time(event);
   if (into == matrix()) ++changes_;
   Scatter::MatrixSum sum(scatter_, into);
   for_each_tangent(configuration, weights, [&](std::size_t at, std::span<double> k) {
+    if (change) change(evaluated(at), k);
     scale_multipliers(evaluated(at), k);
     sum.add(at, k);
   });
@@ -354,7 +355,8 @@ void Assembler::tangent(const Configuration& configuration, Weights weights, Mat
   sum.finish();
 }
 
-void Assembler::projection(const Configuration& configuration, Metric metric, std::span<const int> held, Mat into, double give) {
+void Assembler::projection(const Configuration& configuration, Metric metric, std::span<const int> held, Mat into,
+                           std::span<const double> give) {
   if (into == matrix()) ++changes_;
   const bool mass = metric != Metric::geometric;
   const auto motion = static_cast<std::size_t>(numbering_.motion_slots());
@@ -364,10 +366,12 @@ void Assembler::projection(const Configuration& configuration, Metric metric, st
     const int part = evaluated(at);
     const auto slots = numbering_.part_slots(part);
     const std::size_t n = slots.size(), m0 = n - element(part).layout().multipliers.size();
-    std::span<const double> of_mass;
-    if (mass) of_mass = element_tangent(part, configuration, {give, 0, 1, 0}).k;
+    const double stiffness = give.empty() ? 0 : give[static_cast<std::size_t>(part)];
+    const bool weighted = mass || stiffness > 0;
+    std::span<const double> of_motion;
+    if (weighted) of_motion = element_tangent(part, configuration, {stiffness, 0, mass ? 1.0 : 0.0, 0}).k;
     for (std::size_t i = 0; i < m0; ++i) {
-      for (std::size_t j = 0; j < m0; ++j) k[i * n + j] = mass ? of_mass[i * n + j] : 0.0;
+      for (std::size_t j = 0; j < m0; ++j) k[i * n + j] = weighted ? of_motion[i * n + j] : 0.0;
       if (!is_ghost(at)) inertia[static_cast<std::size_t>(slots[i])] += k[i * n + i];
       // a multiplier's column may hold more than −Bᵀ (e.g. the separating force of gears), but a projection needs −Bᵀ alone
       if (metric == Metric::dynamic) continue;

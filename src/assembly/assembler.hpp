@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <span>
 #include <vector>
@@ -94,8 +95,10 @@ class Assembler {
   long changes() const { return changes_; }
   /// Assembles the scaled tangent in matrix().
   void tangent(const Configuration& configuration, Weights weights) { tangent(configuration, weights, matrix()); }
+  /// Changes the tangent of an element, square and row-major in its slots, before it is added.
+  using Change = std::function<void(int part, std::span<double> k)>;
   /// As above, into a matrix from new_matrix().
-  void tangent(const Configuration& configuration, Weights weights, Mat into);
+  void tangent(const Configuration& configuration, Weights weights, Mat into, const Change& change = {});
 
   /// Frees the memory for entry positions, which the next tangent would have to find again. For matrices that are assembled
   /// once.
@@ -112,8 +115,9 @@ class Assembler {
   void projection(const Configuration& configuration, Metric metric, std::span<const int> held = {}) {
     projection(configuration, metric, held, matrix());
   }
-  /// As above, into a matrix from new_matrix(), with `give` times the stiffness added to the mass matrix.
-  void projection(const Configuration& configuration, Metric metric, std::span<const int> held, Mat into, double give = 0);
+  /// As above, into a matrix from new_matrix(), with `give` times the stiffness of each element added to D; empty: 0 for all.
+  void projection(const Configuration& configuration, Metric metric, std::span<const int> held, Mat into,
+                  std::span<const double> give = {});
   /// Substitute inertia of motions without mass in the last projection by mass, as a moment of inertia: masses times the square
   /// of the extent.
   double missing_inertia() const { return missing_inertia_; }

@@ -42,6 +42,7 @@ class Block {
   virtual Energies energies(std::size_t e, const State& state) const;
   virtual bool applied(std::size_t /*e*/, const State& /*state*/, std::span<double> /*forces*/) const { return false; }
   virtual CellShape cell_shape() const { return CellShape::none; }
+  virtual bool keeps_shape() const { return false; }
   virtual bool in_mesh() const { return true; }
   virtual bool is_body() const { return false; }
   virtual bool is_linear(std::size_t) const { return false; }
@@ -89,6 +90,7 @@ class BlockMember final : public Element {
   Energies energies(const State& state) const override { return block_->energies(index_, state); }
   bool applied(const State& state, std::span<double> forces) const override { return block_->applied(index_, state, forces); }
   CellShape cell_shape() const override { return block_->cell_shape(); }
+  bool keeps_shape() const override { return block_->keeps_shape(); }
   bool in_mesh() const override { return block_->in_mesh(); }
   bool is_body() const override { return block_->is_body(); }
   bool is_linear() const override { return block_->is_linear(index_); }

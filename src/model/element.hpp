@@ -353,6 +353,10 @@ class Element {
   /// nothing.
   virtual bool applied(const State& /*state*/, std::span<double> /*forces*/) const { return false; }
   virtual CellShape cell_shape() const { return CellShape::none; }
+  /// Whether it is a piece of an elastic body that resists every change of shape: a cell or a beam, but no membrane.
+  virtual bool keeps_shape() const { return false; }
+  /// Whether its tangent turns with its nodes: a rigid-body motion changes no force in axes that move along.
+  virtual bool turns_with_nodes() const { return keeps_shape() || cell_shape() != CellShape::none; }
   /// Whether the element has its own entity in the mesh of the results; a pressure, for example, is part of its cell.
   virtual bool in_mesh() const { return true; }
 

@@ -257,6 +257,7 @@ Schema initial_card(const char* name, Words synonyms, const char* summary, const
                   "allow is taken. With IMPOSED this is an error. The value of a joint (ELEMENT) always holds exactly, or is an "
                   "error: the nodes follow, and joints of which nothing is said ") +
       (velocity ? "move as the least kinetic energy has it. Several records on a node add up." : "move as little as possible.") +
+      " Meshes and beams follow joints and drives as rigid bodies, unless their nodes are given values." +
       " With `.SAM RESTART` the state comes from the restart point: a warning tells that the values have no effect, with IMPOSED "
       "an error.");
   add_target(card);

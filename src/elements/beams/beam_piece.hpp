@@ -381,6 +381,7 @@ class Beams final : public BeamSweep<Nodes> {
                std::span<double> k) const override;
   Energies energies(std::size_t e, const State& state) const override;
   bool is_body() const override { return true; }
+  bool keeps_shape() const override { return true; }
   bool is_linear(std::size_t e) const override { return this->data(e).small != nullptr; }
   const char* why_not_finite() const override {
     return "is bent or twisted by more than 2 radians between two of its nodes: more pieces, smaller steps H, "

@@ -52,6 +52,7 @@ class Cells final : public Block {
   const Layout& layout() const override { return layout_; }
   std::span<const int> node_ids(std::size_t e) const override { return cells_[e].nodes; }
   CellShape cell_shape() const override { return S; }
+  bool keeps_shape() const override { return true; }
   const char* why_not_finite() const override {
     return "is turned inside out, or distorted so far that its forces are no numbers: smaller steps H, loads that grow from "
            "zero (NF), or a finer mesh";

@@ -11,9 +11,9 @@
 #include "math/angle.hpp"
 #include "math/rotation.hpp"
 #include "model/elastic_teeth.hpp"
+#include "solve/constraints/carried_bodies.hpp"
 #include "solve/constraints/constraint_factors.hpp"
 #include "solve/constraints/diagnosis.hpp"
-#include "solve/constraints/meshes_at_start.hpp"
 #include "solve/constraints/open_loop.hpp"
 
 namespace engrane::solve {
@@ -135,6 +135,31 @@ std::vector<int> Start::held_positions() const {
 void Start::assemble(Configuration& c, StartReport& report) {
   const Configuration given = c;
   assemble_once(c, report);
+  std::vector<double> moves(c.nodes.size(), 0.0);
+  for (const StartReport::Moved& one : report.moved)
+    moves[static_cast<std::size_t>(one.node)] = std::max(one.move, assembler_.model().extent() * one.turn);
+  CarriedBodies bodies(assembler_, Assembler::Metric::geometric, false, moves, 0);
+  if (!bodies.none()) {
+    carried_ = &bodies;
+    Configuration whole = given;
+    StartReport of_whole;
+    try {
+      assemble_once(whole, of_whole);
+      c = std::move(whole);
+      report = std::move(of_whole);
+    } catch (const SolutionFailure& failure) {
+      carried_ = nullptr;
+      report.remarks.push_back(std::string("an elastic body begins strained, as it cannot be moved as a whole: ") +
+                               failure.what());
+    }
+  }
+  assemble_teeth(given, c, report);
+  carried_ = nullptr;
+  note_bodies(bodies, "what closes the joints or sets their values moves",
+              "it begins strained. Give the coordinates of its nodes there", report);
+}
+
+void Start::assemble_teeth(const Configuration& given, Configuration& c, StartReport& report) {
   if (tooth_deformations().empty()) return;
   PressedTeeth pressed = most_pressed_teeth(c);
   if (!(pressed.modules > most_modules)) return;
@@ -225,16 +250,13 @@ void Start::assemble_once(Configuration& c, StartReport& report) {
   verify_imposed(c, wished, false);
   note_moved(given.nodes, c, report);
   if (report.remarks.empty()) remark_on_guesses(c, report);
-  std::vector<double> moves(c.nodes.size(), 0.0);
-  for (const StartReport::Moved& one : report.moved) moves[static_cast<std::size_t>(one.node)] = one.move;
-  remark_on_torn_mesh(assembler_.model(), moves, 0, "what closes the joints or sets their values moves",
-                      "it begins strained. Give the coordinates of its nodes there", report.remarks);
 }
 
 Start::Closing Start::close(Configuration& c, std::span<const int> held, const Target& target,
                             const std::vector<StartCoordinates::Wanted>& wanted) {
   constexpr int most_iterations = 50;
   constexpr double undeformed = 1e-9;  // over the extent
+  constexpr double at_rest = 1e-10;    // of the longest step, for bodies that are carried along
   const Numbering& numbering = assembler_.numbering();
   const double extent = assembler_.model().extent();
   const auto motion_size = motion_.size();
@@ -261,8 +283,9 @@ Start::Closing Start::close(Configuration& c, std::span<const int> held, const T
   const double away = this->away(c), accuracy = away * target.accuracy;
   const std::vector<std::size_t> teeth = holds_teeth_ ? tooth_deformations() : std::vector<std::size_t>{};
   double open = measure(c), deformed = std::numeric_limits<double>::infinity();
+  double last = carried_ ? std::numeric_limits<double>::infinity() : 0;  // length of the last step
   for (;; ++result.iterations) {
-    result.closed = open <= accuracy;
+    result.closed = open <= accuracy && (last <= at_rest || result.iterations == most_iterations);
     // held teeth take a small part of each motion: it is given back until the wheels have made all of it, unless they cannot
     if (result.closed && holds_teeth_) {
       double now = 0;
@@ -275,7 +298,14 @@ Start::Closing Start::close(Configuration& c, std::span<const int> held, const T
       }
     }
     if (result.closed || result.iterations == most_iterations || !std::isfinite(open)) return result;
-    assembler_.projection(c, Assembler::Metric::geometric, held);
+    if (carried_) {
+      std::vector<double> forces = carried_->forces(c);
+      for (double& force : forces) force = -force;
+      motion_.gather(forces, right);
+      assembler_.projection(at_start_of_step(c), Assembler::Metric::geometric, held, assembler_.matrix(), carried_->give());
+    } else {
+      assembler_.projection(c, Assembler::Metric::geometric, held);
+    }
     if (!solve(right, step) || !add_coordinates(c, wanted, step)) {
       result.singular = true;
       return result;
@@ -287,6 +317,7 @@ Start::Closing Start::close(Configuration& c, std::span<const int> held, const T
     for (std::size_t i = 0; i < 6 * c.nodes.size(); ++i)
       length = std::max(length, std::abs(y[i]) / (i % 6 < 3 ? 0.25 * extent : 0.5));
     if (result.iterations == 0) result.first = length;
+    if (carried_) last = length;
     if (length > 1) {
       result.far = true;
       for (double& v : y) v /= length;
@@ -513,6 +544,7 @@ void Start::fit(Configuration& c, Assembler::Metric metric, StartReport* report)
   }
   if (report && fastest > 0) report->rate_violated_most = numbering.describe(static_cast<int>(worst));
   const std::vector<double> wished = v;
+  const Configuration given = c;
   const std::vector<int> held = report ? imposed(true) : std::vector<int>{};
   const auto free = undecided(c, asked, held);
   assembler_.projection(c, metric, held);
@@ -529,22 +561,26 @@ void Start::fit(Configuration& c, Assembler::Metric metric, StartReport* report)
       throw SolutionFailure(conflict);
   }
   if (!report) return;
-  delta.resize(6 * c.nodes.size());  // scalars follow: their change says nothing
+  std::vector<double> changes(c.nodes.size());
+  for (std::size_t n = 0; n < changes.size(); ++n) {
+    const NodeState &from = given.nodes[n], &to = c.nodes[n];
+    changes[n] = std::max((to.v - from.v).norm(), extent * (to.W - from.W).norm());
+  }
+  constexpr double slow = 1e-6;  // moves a body by this part of the model in the whole run
+  const deck::SteppingCard& stepping = assembler_.model().commands.stepping;
+  CarriedBodies bodies(assembler_, metric, true, changes, slow * extent / (stepping.end - stepping.start));
+  carry(c, metric, held, free, bodies);
+  note_bodies(bodies, "the speed of joints and drives at the start moves",
+              "it begins with an impact. Give it its speed by .INI VIT GROUP … AXIS … AT … V", *report);
+  const std::vector<double> fitted = motion_.velocities(c);
   report->largest_velocity_change = 0;
   std::size_t fastest_slot = 0;
-  for (std::size_t i = 0; i < delta.size(); ++i) {
-    if (std::abs(delta[i]) <= report->largest_velocity_change) continue;
-    report->largest_velocity_change = std::abs(delta[i]);
+  for (std::size_t i = 0; i < 6 * c.nodes.size(); ++i) {  // scalars follow: their change says nothing
+    if (std::abs(fitted[i] - wished[i]) <= report->largest_velocity_change) continue;
+    report->largest_velocity_change = std::abs(fitted[i] - wished[i]);
     fastest_slot = i;
   }
   if (report->largest_velocity_change > 0) report->velocity_changed_most = slot_name(assembler_.model(), fastest_slot);
-  std::vector<double> changes(c.nodes.size());
-  for (std::size_t n = 0; n < changes.size(); ++n) changes[n] = Eigen::Map<const Vec3>(&delta[6 * n]).norm();
-  constexpr double slow = 1e-6;  // moves the mesh by this part of the model in the whole run
-  const deck::SteppingCard& stepping = assembler_.model().commands.stepping;
-  remark_on_torn_mesh(assembler_.model(), changes, slow * extent / (stepping.end - stepping.start),
-                      "the speed of joints and drives at the start moves",
-                      "it begins with an impact. Give it its speed by .INI VIT GROUP … AXIS … AT … V", report->remarks);
   verify_imposed(c, wished, true);
   verify_coordinates(c, asked);
 }

@@ -26,6 +26,8 @@ inline double largest(std::span<const double> values) {
   return most;
 }
 
+class CarriedBodies;
+
 /// The solution cannot go on; the message is for the user (exit status 2).
 struct SolutionFailure : std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -83,6 +85,14 @@ class Start {
   void assemble_once(Configuration& c, StartReport& report);
   /// fit_velocities() or, without a report, project_velocities().
   void fit(Configuration& c, Assembler::Metric metric, StartReport* report);
+  /// The same where teeth of `c`, assembled from `given`, are pressed in too far.
+  void assemble_teeth(const Configuration& given, Configuration& c, StartReport& report);
+  /// Gives elastic bodies the velocities of rigid bodies, as far as constraints, held equations and the coordinates `free` allow.
+  /// `c` is to fit these, and the matrix is their projection.
+  void carry(Configuration& c, Assembler::Metric metric, std::span<const int> held,
+             const std::vector<StartCoordinates::Wanted>& free, CarriedBodies& bodies);
+  /// Tells which bodies were carried along, and warns of torn ones: `what` moves them, `remedy` is what moves a whole one.
+  void note_bodies(const CarriedBodies& bodies, const std::string& what, const std::string& remedy, StartReport& report) const;
   /// A pair of elastic teeth and how far they are pressed in, over their module; no part if none is.
   struct PressedTeeth {
     int part = -1;
@@ -181,7 +191,8 @@ class Start {
   Redundancy& redundancy_;
   StartCoordinates coordinates_;
   Owned<Vec> right_, solution_;
-  bool holds_teeth_ = false;  ///< wheels turn rather than that their teeth deform
+  const CarriedBodies* carried_ = nullptr;  ///< bodies that assemble() moves as wholes, if any
+  bool holds_teeth_ = false;                ///< wheels turn rather than that their teeth deform
 };
 
 }  // namespace engrane::solve

@@ -308,12 +308,13 @@ bool Start::balance_softly(Configuration& c, double give, StartReport* report, c
   motion_.set_accelerations(a, still);
   std::vector<double> last;
   double change = std::numeric_limits<double>::infinity();
+  const std::vector<double> gives(assembler_.model().parts.size(), give);
   // repeated where forces depend on the multipliers, as in balance_accelerations
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     // the whole of the accelerations is sought each time: forces follow them only through the stiffness in the matrix
     std::vector<double> right = out_of_balance(still, massless);
     if (!std::isfinite(largest(right))) refuse_not_finite(assembler_, still);
-    assembler_.projection(still, Assembler::Metric::dynamic, {}, assembler_.matrix(), give);
+    assembler_.projection(still, Assembler::Metric::dynamic, {}, assembler_.matrix(), gives);
     std::vector<double> found = solve_balance(right, still, massless);
     for (std::size_t i = 0; i < a.size(); ++i) found[i] += a[i];
     c.multipliers = still.multipliers;

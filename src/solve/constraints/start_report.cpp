@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "math/angle.hpp"
 
 namespace engrane::solve {
@@ -12,6 +14,13 @@ namespace {
 constexpr std::size_t most_rows = 8;
 
 std::string iterations(int n) { return fmt::format("{} iteration{}", n, n == 1 ? "" : "s"); }
+
+/// The first few, and how many more there are.
+std::string listed(const std::vector<std::string>& all) {
+  const std::size_t shown = std::min(all.size(), most_rows);
+  std::string text = fmt::format("{}", fmt::join(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(shown), ", "));
+  return shown < all.size() ? text + fmt::format(" and {} more", all.size() - shown) : text;
+}
 
 std::string positions(const Model& model, const StartReport& report) {
   std::string text = "  1. positions: the mechanism closes as given";
@@ -56,6 +65,9 @@ std::string describe_start(const Model& model, const StartReport& report) {
       text += fmt::format("changed by up to {:.4g}, at {}, to fit joints and drives; those given opened {} fastest\n",
                           report.largest_velocity_change, report.velocity_changed_most, report.rate_violated_most);
   }
+  if (!report.carried.empty())
+    text += fmt::format("     elastic bodies that follow joints and drives, strained only as these demand: {}\n",
+                        listed(report.carried));
   for (const std::string& remark : report.remarks) text += "     warning: " + remark + "\n";
   if (report.massless > 0)
     text += fmt::format("     {} without mass, {}: kept in equilibrium with springs and dampers\n",

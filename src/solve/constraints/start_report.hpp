@@ -25,7 +25,8 @@ struct StartReport {
   std::vector<Moved> moved;              ///< nodes that moved or turned, the farthest first
   std::vector<Opened> opened;            ///< joints that did not fit, the largest gap first
   std::vector<std::string> coordinates;  ///< joint values set by the deck: "ANGLE of HINGE 2 = 30 deg"
-  std::vector<std::string> remarks;      ///< on the branch that was reached, and on meshes that begin torn
+  std::vector<std::string> carried;      ///< elastic bodies that move as wholes: "that of node 1 (63 nodes)"
+  std::vector<std::string> remarks;      ///< on the branch that was reached, and on bodies that begin torn
   double largest_move = 0;               ///< in the deck's unit of length
   double largest_turn = 0;               ///< radians
 
