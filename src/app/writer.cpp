@@ -101,6 +101,7 @@ void Writer::begin(const SolverContext& context, int ranks) {
 }
 
 void Writer::resumed(const Resumption& from) {
+  continues_ = true;
   checks_.load(from.point.memory);
   peaks_.load(from.point.memory);
   const Snapshot& memory = from.point.memory;
@@ -441,6 +442,15 @@ void Writer::buckling(const std::vector<BucklingMode>& modes, int asked, const C
     buckling_ += fmt::format("\n  {} were asked for; at no other load time is the tangent singular\n", asked);
   progress_.note(modes.empty() ? "engrane: no buckling loads"
                                : fmt::format("engrane: buckling at load time {:.6g} (linearised)", modes.front().load_time));
+  constexpr double visible = 0.1, far = 0.2;
+  if (modes.empty() || (modes.front().left_out <= visible && modes.front().turn <= far)) return;
+  warn({.severity = Severity::warning,
+        .location = {},
+        .message =
+            fmt::format("until load time {:.6g} the loads turn members, by up to {:.2g} rad, which linearised buckling leaves "
+                        "out; the stiffness against these loads changes by {:.0f} per cent",
+                        modes.front().load_time, modes.front().turn, 100 * modes.front().left_out),
+        .hint = "follow the equilibria by .PATH, or take them nearer to that load (BASE END)"});
 }
 
 void Writer::collect_remarks(const Configuration& c, const Numbering& numbering) {
@@ -451,6 +461,14 @@ void Writer::collect_remarks(const Configuration& c, const Numbering& numbering)
          part.element->remarks(std::span(c.history).subspan(static_cast<std::size_t>(numbering.history_begin(p)), size)))
       warn(part.name() + ": " + remark);
   }
+  const auto& path = reading_.model.commands.path;
+  const auto& met = summary_.critical;
+  if (!path || !path->branch || continues_) return;
+  if (std::any_of(met.begin(), met.end(), [](const CriticalPoint& point) { return point.switched != 0; })) return;
+  const auto bifurcations = std::count_if(
+      met.begin(), met.end(), [](const CriticalPoint& point) { return point.kind == CriticalPoint::Kind::bifurcation; });
+  warn(fmt::format("BRANCH {} was not taken: the path has met {} bifurcation point{}", *path->branch, bifurcations,
+                   bifurcations == 1 ? "" : "s"));
 }
 
 void Writer::warn(Diagnostic warning) {

@@ -106,6 +106,7 @@ class Writer {
   std::string events_, critical_, buckling_, accuracy_;
   std::vector<Diagnostic> warnings_;
   bool frame_between_ = false;  ///< a frame was due within the step
+  bool continues_ = false;      ///< an earlier run, whose part of a path this one does not know
   std::size_t marked_ = 0;      ///< number of channels marked as not unique so far
   long steps_ = 0, iterations_ = 0, cuts_ = 0, event_count_ = 0, listed_events_ = 0, locating_ = 0, coupled_ = 0;
 };

@@ -61,7 +61,8 @@ Schema buckling_card() {
       "functions "
       "nearest to it at which it is singular are found, with their modes. With loads in proportion to time and BASE START these "
       "times "
-      "are factors of the loads at time 1.");
+      "are factors of the loads at time 1. Displacements of members before they buckle are left out, as usual; a warning tells "
+      "where they count.");
   card.add("MODES", &BucklingCard::modes, "how many").synonyms({"NOMBRE", "NVAL"}).at_least(1).at_most(1000);
   card.add("BASE", &BucklingCard::base, "the equilibrium that the tangent is continued from")
       .option({"START", {"DEBUT"}, "the first, at TI, with the loads that do not grow from zero"})

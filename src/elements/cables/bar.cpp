@@ -60,6 +60,8 @@ class Bar final : public TemplatedElement<Bar, 2, 6> {
     set_layout(std::move(layout));
   }
 
+  bool turns_with_nodes() const override { return true; }
+
   template <class T>
   void evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance) const {
     const auto& a = motion.node[0];

@@ -44,12 +44,13 @@ double probe_value(std::size_t place) {
   return 0.5 + turns - std::floor(turns);
 }
 
-void fill_probe(Vec vector) {
+void fill_probe(Vec vector, int other) {
+  const auto every = static_cast<std::size_t>(other) + 1;
   PetscInt first = 0, end = 0;
   PetscScalar* x = nullptr;
   check_petsc(VecGetOwnershipRange(vector, &first, &end));
   check_petsc(VecGetArrayWrite(vector, &x));
-  for (PetscInt i = first; i < end; ++i) x[i - first] = probe_value(static_cast<std::size_t>(i));
+  for (PetscInt i = first; i < end; ++i) x[i - first] = probe_value(every * (static_cast<std::size_t>(i) + 1) - 1);
   check_petsc(VecRestoreArrayWrite(vector, &x));
 }
 

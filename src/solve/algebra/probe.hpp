@@ -9,7 +9,8 @@ namespace engrane::solve {
 /// A number between 0.5 and 1.5 for each index: fractional parts of multiples of the golden ratio. No two numbers, sums or
 /// differences are alike, and none depends on the ranks.
 double probe_value(std::size_t place);
-void fill_probe(Vec vector);
+/// `other`: another vector for each number.
+void fill_probe(Vec vector, int other = 0);
 /// Fills a vector with such numbers as loads of the assembler's equations: moments are these numbers times the extent, as they
 /// are in other units of length, too.
 void fill_loads(const Assembler& assembler, Vec loads);

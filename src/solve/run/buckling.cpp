@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solve/run/buckling.hpp"
 
-#include <fmt/format.h>
 #include <slepceps.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <exception>
+#include <numeric>
 #include <utility>
 
 #include "solve/algebra/guarded.hpp"
 #include "solve/algebra/probe.hpp"
-#include "solve/constraints/diagnosis.hpp"
-#include "solve/schemes/equilibrium_tangent.hpp"
-#include "solve/schemes/load_derivative.hpp"
+#include "solve/run/tangent_course.hpp"
 #include "solve/schemes/mode_text.hpp"
 
 namespace engrane::solve {
@@ -27,6 +25,13 @@ constexpr double same = 1e-3;
 /// Such a fraction for modes after the first, whose difference is not chosen for them.
 constexpr double alike_later = 1e-2;
 constexpr int most_passes = 8;
+/// Eigenvalues whose imaginary part is less than this fraction are equal ones that rounding has made a pair.
+constexpr double real_pair = 1e-4;
+/// Times closer than this fraction belong to the same buckling load, and their modes to one space.
+constexpr double equal = 1e-6;
+/// Part of a mode that is not in the space of those known, at least, of a new one.
+constexpr double another_mode = 1e-2;
+constexpr int most_searches = 8;
 constexpr double precision = 1e-10;
 /// Times farther away than this many runs are rounding, and so are those nearer than that fraction of one.
 constexpr double never = 1e15;
@@ -36,67 +41,65 @@ struct Slepc {
   ~Slepc() { SlepcFinalize(); }
 };
 
-class Problem {
+struct Pair {
+  double time;                 ///< from that of the equilibrium
+  std::vector<double> vector;  ///< by equation
+};
+
+/// Searches for the times θ nearest to an equilibrium at which K + θ K₁ is singular: the largest eigenvalues 1/θ of −K⁻¹ K₁.
+class ModeSearch {
  public:
-  Problem(SolverContext& context, const Configuration& equilibrium) : context_(context), tangent_(context) {
-    *change_.out() = context.assembler.new_matrix();
-    for (Owned<Vec>* vector : {&loads_, &way_, &product_}) *vector->out() = context.assembler.new_vector();
-    if (!tangent_.factor(equilibrium))
-      throw SolutionFailure(
-          explain_singular(context.assembler, "no buckling loads: the tangent matrix is singular", Resistance::at_rest));
-    if (tangent_.neutral(way_)) {
-      const std::string free =
-          explain_unresisted(context.assembler, equilibrium, "no buckling loads: the tangent matrix is singular");
-      if (!free.empty()) throw SolutionFailure(free);
+  ModeSearch(SolverContext& context, TangentCourse& course) : context_(context), course_(course) {
+    for (Owned<Vec>* vector : {&begin_, &real_, &other_}) *vector->out() = context.assembler.new_vector();
+    PetscInt local = 0;
+    check_petsc(VecGetLocalSize(begin_, &local));
+    check_petsc(VecGetSize(begin_, &size_));
+    check_petsc(MatCreateShell(context.assembler.comm(), local, local, size_, size_, this, shell_.out()));
+    check_petsc(MatShellSetOperation(shell_, MATOP_MULT, reinterpret_cast<void (*)()>(multiply)));
+  }
+
+  /// Nearest times with their modes. A search finds one mode of each time, and by rounding others of times that have several: it
+  /// is made again from other vectors until nothing is added.
+  std::vector<Pair> find(int count) {
+    std::vector<Pair> found;
+    for (int search = 0; search < most_searches; ++search) {
+      const std::vector<Pair> before = found;
+      for (Pair& pair : from_vector(search, count)) add(std::move(pair), found);
+      std::stable_sort(found.begin(), found.end(),
+                       [](const Pair& a, const Pair& b) { return std::abs(a.time) * (1 + equal) < std::abs(b.time); });
+      if (static_cast<int>(found.size()) > count) found.resize(static_cast<std::size_t>(count));
+      if (std::equal(found.begin(), found.end(), before.begin(), before.end(),
+                     [](const Pair& a, const Pair& b) { return std::abs(a.time - b.time) <= equal * std::abs(b.time); }))
+        break;
     }
-    LoadDerivative derivative(context, first_step * context.options.step);
-    derivative.find(tangent_.place(), loads_);
-    tangent_.solve(loads_, way_);
-    check_petsc(VecScale(way_, -1));
-    const auto all = context.assembler.gather(way_);
-    along_.assign(all.begin(), all.end());
+    // of loads ±λ that buckle alike, rounding decides which comes first
+    for (std::size_t i = 1; i < found.size(); ++i)
+      if (found[i - 1].time < 0 && found[i].time > 0 && std::abs(found[i - 1].time + found[i].time) <= same * found[i].time)
+        std::swap(found[i - 1], found[i]);
+    return found;
   }
 
-  bool loaded() const {
-    return std::any_of(along_.begin(), along_.end(), [](double value) { return value != 0; });
+ private:
+  static PetscErrorCode multiply(Mat shell, Vec x, Vec y) {
+    ModeSearch* self = nullptr;
+    PetscCall(MatShellGetContext(shell, &self));
+    return guarded(self->failure_, [&] {
+      self->course_.respond(x, y);
+      return 0;
+    });
   }
 
-  /// K′ by the forward difference of order 4: exact where the tangent is a polynomial of that degree.
-  void differentiate(double step) {
-    static constexpr std::array<double, 5> weights{-25.0 / 12, 4, -3, 4.0 / 3, -1.0 / 4};
-    check_petsc(MatCopy(tangent_.matrix(), change_, SAME_NONZERO_PATTERN));
-    check_petsc(MatScale(change_, weights[0]));
-    Owned<Mat> later;
-    *later.out() = context_.assembler.new_matrix();
-    for (std::size_t k = 1; k < weights.size(); ++k) {
-      tangent_.evaluate(moved(static_cast<double>(k) * step), later);
-      check_petsc(MatAXPY(change_, weights[k], later, SAME_NONZERO_PATTERN));
-    }
-    check_petsc(MatScale(change_, 1 / step));
-  }
-
-  struct Pair {
-    double time;
-    std::vector<double> vector;  ///< by equation
-  };
-  /// Nearest times, from the equilibrium's own, with their modes.
-  std::vector<Pair> solve(int count) {
-    Owned<Mat> shell;
-    PetscInt local = 0, global = 0;
-    check_petsc(VecGetLocalSize(way_, &local));
-    check_petsc(VecGetSize(way_, &global));
-    check_petsc(MatCreateShell(context_.assembler.comm(), local, local, global, global, this, shell.out()));
-    check_petsc(MatShellSetOperation(shell, MATOP_MULT, reinterpret_cast<void (*)()>(multiply)));
+  std::vector<Pair> from_vector(int start, int count) {
     Owned<EPS> eps;
     check_petsc(EPSCreate(context_.assembler.comm(), eps.out()));
-    check_petsc(EPSSetOperators(eps, shell, nullptr));
+    check_petsc(EPSSetOperators(eps, shell_, nullptr));
     check_petsc(EPSSetProblemType(eps, EPS_NHEP));
     check_petsc(EPSSetWhichEigenpairs(eps, EPS_LARGEST_MAGNITUDE));
-    check_petsc(EPSSetDimensions(eps, std::min<PetscInt>(count, global), PETSC_DEFAULT, PETSC_DEFAULT));
+    check_petsc(EPSSetDimensions(eps, std::min<PetscInt>(count, size_), PETSC_DEFAULT, PETSC_DEFAULT));
     check_petsc(EPSSetTolerances(eps, precision, PETSC_DEFAULT));
     check_petsc(EPSSetOptionsPrefix(eps, "buckling_"));
-    fill_probe(product_);
-    Vec first = product_;
+    fill_probe(begin_, start);
+    Vec first = begin_;
     check_petsc(EPSSetInitialSpace(eps, 1, &first));
     check_petsc(EPSSetFromOptions(eps));
     const PetscErrorCode code = EPSSolve(eps);
@@ -105,66 +108,67 @@ class Problem {
     PetscInt converged = 0;
     check_petsc(EPSGetConverged(eps, &converged));
     std::vector<Pair> pairs;
-    Owned<Vec> real;
-    *real.out() = context_.assembler.new_vector();
     for (PetscInt i = 0; i < converged && static_cast<int>(pairs.size()) < count; ++i) {
       PetscScalar value = 0, imaginary = 0;
-      check_petsc(EPSGetEigenpair(eps, i, &value, &imaginary, real, nullptr));
-      // a complex pair is no loss of stability at rest
-      if (value == 0 || imaginary != 0) continue;
-      if (std::abs(value) * never * (context_.options.end - context_.options.begin) < 1) continue;  // rounding: nothing buckles
-      const auto all = context_.assembler.gather(real);
-      pairs.push_back({-1 / value, {all.begin(), all.end()}});
+      check_petsc(EPSGetEigenpair(eps, i, &value, &imaginary, real_, other_));
+      // any other complex pair is no loss of stability at rest
+      if (value == 0 || std::abs(imaginary) > real_pair * std::abs(value)) continue;
+      const double time = 1 / value;
+      if (std::abs(time) > never * (context_.options.end - context_.options.begin)) continue;  // rounding: nothing buckles
+      const auto all = context_.assembler.gather(imaginary < 0 ? other_ : real_);
+      pairs.push_back({time, {all.begin(), all.end()}});
     }
-    // of loads ±λ that buckle alike, rounding decides which comes first
-    for (std::size_t i = 1; i < pairs.size(); ++i)
-      if (pairs[i - 1].time < 0 && pairs[i].time > 0 && std::abs(pairs[i - 1].time + pairs[i].time) <= same * pairs[i].time)
-        std::swap(pairs[i - 1], pairs[i]);
     return pairs;
   }
 
- private:
-  static PetscErrorCode multiply(Mat shell, Vec x, Vec y) {
-    Problem* self = nullptr;
-    PetscCall(MatShellGetContext(shell, &self));
-    return guarded(self->failure_, [&] {
-      check_petsc(MatMult(self->change_, x, self->loads_));
-      self->tangent_.solve(self->loads_, y);
-      return 0;
-    });
+  /// Adds a mode unless it is one of those found with the same time, or a sum of them.
+  void add(Pair pair, std::vector<Pair>& found) const {
+    std::vector<std::vector<double>> known;  // orthonormal
+    const auto is_new = [&](std::vector<double> vector) {
+      const auto dot = [](const std::vector<double>& a, const std::vector<double>& b) {
+        return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+      };
+      const double size = std::sqrt(dot(vector, vector));
+      for (int twice = 0; twice < 2; ++twice)
+        for (const std::vector<double>& one : known) {
+          const double part = dot(one, vector);
+          for (std::size_t e = 0; e < vector.size(); ++e) vector[e] -= part * one[e];
+        }
+      const double rest = std::sqrt(dot(vector, vector));
+      if (!(rest > another_mode * size)) return false;
+      for (double& value : vector) value /= rest;
+      known.push_back(std::move(vector));
+      return true;
+    };
+    for (const Pair& one : found)
+      if (std::abs(one.time - pair.time) <= equal * std::abs(pair.time)) is_new(motion_of(one.vector));
+    if (is_new(motion_of(pair.vector))) found.push_back(std::move(pair));
   }
 
-  /// The equilibrium later by `time`, if everything goes on as it does.
-  const Configuration& moved(double time) {
-    std::vector<double> y(context_.motion.size(), 0.0), step(along_.size());
-    for (std::size_t i = 0; i < step.size(); ++i) step[i] = time * along_[i];
-    context_.motion.scatter(step, y);
-    const Configuration& base = tangent_.place();
-    context_.motion.prescribe_increment(base.load_time(), base.load_time() + time, y);
-    moved_ = base;
-    context_.motion.move(base, y, moved_);
-    moved_ = at_start_of_step(std::move(moved_));
-    moved_.lead += time;
-    context_.assembler.add_to_multipliers(step, moved_.multipliers);
-    return moved_;
+  /// Without multipliers, and with rotations as displacements at the distance of the extent.
+  std::vector<double> motion_of(std::vector<double> mode) const {
+    for (std::size_t e = 0; e < mode.size(); ++e) {
+      const Unknown& u = context_.numbering.unknown(static_cast<int>(e));
+      if (u.multiplier) mode[e] = 0;
+      if (u.rotational()) mode[e] *= context_.model.extent();
+    }
+    return mode;
   }
 
   SolverContext& context_;
-  EquilibriumTangent tangent_;
-  Owned<Mat> change_;
-  Owned<Vec> loads_, way_, product_;
-  Configuration moved_;
-  std::vector<double> along_;
+  TangentCourse& course_;
+  PetscInt size_ = 0;
+  Owned<Mat> shell_;
+  Owned<Vec> begin_, real_, other_;
   std::exception_ptr failure_;  ///< thrown inside a callback
 };
 
 /// Removes the times that another difference of the tangent does not give: a system that buckles in fewer ways than were asked
 /// for has rounding in their place.
-void keep_confirmed(std::vector<Problem::Pair>& found, const std::vector<Problem::Pair>& again) {
-  std::erase_if(found, [&](const Problem::Pair& pair) {
-    return std::none_of(again.begin(), again.end(), [&](const Problem::Pair& other) {
-      return std::abs(other.time - pair.time) <= alike_later * std::abs(pair.time);
-    });
+void keep_confirmed(std::vector<Pair>& found, const std::vector<Pair>& again) {
+  std::erase_if(found, [&](const Pair& pair) {
+    return std::none_of(again.begin(), again.end(),
+                        [&](const Pair& other) { return std::abs(other.time - pair.time) <= alike_later * std::abs(pair.time); });
   });
 }
 
@@ -172,31 +176,35 @@ void keep_confirmed(std::vector<Problem::Pair>& found, const std::vector<Problem
 
 std::vector<BucklingMode> find_buckling(SolverContext& context, const Configuration& equilibrium, int count) {
   const Slepc slepc;
-  Problem problem(context, equilibrium);
-  if (!problem.loaded())
+  TangentCourse course(context, equilibrium);
+  if (!course.loaded())
     throw SolutionFailure(
         "no buckling loads: nothing moves when time grows; give loads or prescribed displacements a function of time, NF");
+  ModeSearch search(context, course);
   double step = first_step * context.options.step, before = 0;
-  std::vector<Problem::Pair> found;
-  for (int pass = 0; pass < most_passes; ++pass) {
-    problem.differentiate(step);
-    found = problem.solve(count);
+  std::vector<Pair> found;
+  for (int pass = 0;; ++pass) {
+    if (pass == most_passes) return {};  // rounding
+    course.differentiate(step);
+    found = search.find(count);
     if (found.empty()) return {};
     const double nearest = std::abs(found.front().time);
     if (nearest * never < context.options.end - context.options.begin) return {};
     if (std::abs(nearest - before) <= same * nearest) break;
     before = nearest;
     step = good_step * nearest;
-    if (pass + 1 == most_passes) return {};  // rounding
   }
   if (found.size() > 1) {
-    problem.differentiate(step / 2);
-    keep_confirmed(found, problem.solve(count));
+    course.differentiate(step / 2);
+    keep_confirmed(found, search.find(count));
   }
+  const double left_out = course.left_out();
   std::vector<BucklingMode> modes;
-  for (const Problem::Pair& pair : found) {
+  for (const Pair& pair : found) {
     BucklingMode& mode = modes.emplace_back();
     mode.load_time = equilibrium.load_time() + pair.time;
+    mode.turn = course.fastest_turn() * std::abs(pair.time);
+    mode.left_out = left_out * std::abs(pair.time);
     mode.largest = largest_components(context.numbering, pair.vector);
     std::vector<double> motion(context.motion.size(), 0.0);
     context.motion.scatter(pair.vector, motion);

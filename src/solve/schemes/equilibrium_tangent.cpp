@@ -10,9 +10,9 @@ namespace engrane::solve {
 
 EquilibriumTangent::EquilibriumTangent(SolverContext& context) : context_(context), factors_(context.assembler.new_matrix()) {}
 
-void EquilibriumTangent::evaluate(const Configuration& at_start_of_step, Mat into) const {
+void EquilibriumTangent::evaluate(const Configuration& at_start_of_step, Mat into, const Assembler::Change& change) const {
   Assembler& assembler = context_.assembler;
-  assembler.tangent(at_start_of_step, {1, 0, 0}, into);
+  assembler.tangent(at_start_of_step, {1, 0, 0}, into, change);
   if (assembler.half()) return;  // there are no constraints
   const Numbering& numbering = context_.numbering;
   std::vector<PetscInt> rows;

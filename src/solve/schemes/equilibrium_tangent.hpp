@@ -14,7 +14,8 @@ class EquilibriumTangent {
   explicit EquilibriumTangent(SolverContext& context);
 
   /// Evaluates the tangent of any state like that of an equilibrium, in a matrix from Assembler::new_matrix(). Collective.
-  void evaluate(const Configuration& at_start_of_step, Mat into) const;
+  /// `change`: Assembler::tangent().
+  void evaluate(const Configuration& at_start_of_step, Mat into, const Assembler::Change& change = {}) const;
   /// Evaluates and factors it at an equilibrium; false if it is singular to the last digit. Collective.
   bool factor(const Configuration& equilibrium);
   /// Whether some motion meets no resistance but rounding: the sign of an eigenvalue is then unknown. Sets `motion` to the
