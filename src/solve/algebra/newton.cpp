@@ -40,6 +40,9 @@ constexpr double closed = 1e-9, most_of_open = 2;
 /// its volume answers rounded positions with forces that bend it by more than they were rounded.
 constexpr double small_correction = 1e-11;
 
+/// Change of the other unknown of a Border, over its size, that leaves a negligible error of second order.
+constexpr double settled_border = 1e-6;
+
 /// Sliding speed that counts as zero, over the speed below which friction is regularised.
 constexpr double resting = 1e-3;
 
@@ -334,6 +337,11 @@ bool Newton::judge(int iteration) {
   if (refined_ && iteration == 1 && row_.force + row_.moment > 0 && solver_.direct()) return false;
   if (imbalance_.within(precision_) && std::max(imbalance_.length, imbalance_.angle) <= open_ && balanced_by_itself())
     return true;
+  // one node alone stands in the plane of a path at once, while the load that keeps it there is still sought
+  if (border_ && iteration > 0 && !border_->has_settled(settled_border)) {
+    changed_ = std::max(row_.correction, forces);
+    return false;
+  }
   const double changed_before = std::exchange(changed_, std::max(row_.correction, forces)), changed = changed_;
   if (iteration > 1 && changed <= no_correction) return true;
   const double left = imbalance_.largest();

@@ -42,6 +42,8 @@ class Border {
   virtual ~Border() = default;
   /// `step` is the correction with the other unknown fixed; the next point is x − step.
   virtual void complete(Vec x, Vec step) = 0;
+  /// Whether the last change of the other unknown was at most this part of its size.
+  virtual bool has_settled(double part) const = 0;
 };
 
 /// Newton's method (PETSc's SNES) on the assembled system, with a convergence test that distinguishes forces from lengths.

@@ -38,6 +38,8 @@ constexpr double longest_step = 0.1;
 constexpr double most_overrun = 20;
 /// Part of the run by which the load time changes in one step at most; the step before expected longest_step.
 constexpr double most_path_change = 0.25;
+/// Change of the load time over that at the start, for the same motion, from which on loads hardly change with time.
+constexpr double slow_loads = 10;
 /// Fraction of H below which a step may turn by any angle: at a corner the path turns however short the step is.
 constexpr double corner = 1.0 / 128;
 /// Number of steps after which a path without an end of its own is given up.
@@ -244,6 +246,7 @@ NewtonReport ArcLength::follow(const Configuration& from, double h, Configuratio
   };
   context_.assembler.spread(guess, unknowns());
   work_ = &to;
+  moved_ = 0;
   NewtonReport report = solve(unknowns(), {1, 0, 0}, apply, to, false, at_end ? nullptr : this);
   refuse_half_turns(y, report);
   if (report.converged && !branching_) {
@@ -272,6 +275,7 @@ std::optional<NewtonReport> ArcLength::arrive(const Configuration& from, double 
 }
 
 void ArcLength::complete(Vec x, Vec step) {
+  moved_ = 0;
   load_derivative_.find(*work_, load_);
   if (!context_.solver.solve(load_, toward_)) return;
   PetscReal at = 0, by = 0, with = 0;
@@ -284,7 +288,12 @@ void ArcLength::complete(Vec x, Vec step) {
   const double change = (at - by - aim_) / with;
   if (!std::isfinite(change)) return;
   now_ += change;
+  moved_ = change;
   check_petsc(VecAXPY(step, change, toward_));
+}
+
+bool ArcLength::has_settled(double part) const {
+  return std::abs(moved_) <= part * std::max(std::abs(now_ - context_.options.begin), context_.options.step);
 }
 
 Outcome ArcLength::attempt(const Configuration& from, double h, Configuration& to) {
@@ -309,18 +318,17 @@ Outcome ArcLength::attempt(const Configuration& from, double h, Configuration& t
     return {std::move(*report), {}};
   }
   NewtonReport report = follow(from, h, to);
-  if (!report.converged) return {std::move(report), {}};
   const double span = context_.options.end - context_.options.begin, passed = std::abs(to.load_time() - from.load_time());
-  if (!(passed <= most_path_change * span)) {
-    // behind the top of a function of time the same loads stand at another time
-    report.converged = false;
+  // behind the top of a function of time the same loads stand at another time
+  const bool off = !(passed <= most_path_change * span), slow = !report.converged && here_.load > slow_loads;
+  if (off || slow) {
     report.reason = fmt::format(
-        "the step ends off the path, at load time {:.6g}. Either the loads hardly change with time at load time {:.6g}, and a "
-        "path cannot pass such a place: give them a function that goes on changing, such as EXPR \"T\". Or the path ends there, "
-        "as where the ends of a spring meet",
-        to.load_time(), from.load_time());
-    return {std::move(report), {}};
+        "{}. Either the loads hardly change with time at load time {:.6g}, and a path cannot pass such a place: give them a "
+        "function that goes on changing, such as EXPR \"T\". Or the path ends there, as where the ends of a spring meet",
+        off ? fmt::format("the step ends off the path, at load time {:.6g}", to.load_time()) : report.reason, from.load_time());
+    report.converged = false;
   }
+  if (!report.converged) return {std::move(report), {}};
   if (!examine(to, &here_, there_)) {
     report.converged = false;
     report.singular = true;

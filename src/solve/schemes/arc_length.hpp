@@ -60,6 +60,7 @@ class ArcLength final : public Statics, private Border {
   /// are, and a step that passes it then has no solution.
   std::optional<NewtonReport> arrive(const Configuration& from, double h, Configuration& to);
   void complete(Vec x, Vec step) override;
+  bool has_settled(double part) const override;
   /// Finds the tangent at an equilibrium, onwards from `before` (nullptr: loads grow); false if the matrix is singular.
   bool examine(const Configuration& c, const Point* before, Point& point);
   /// Mode of the matrix examined last.
@@ -124,6 +125,7 @@ class ArcLength final : public Statics, private Border {
   // for one solution by Newton's method
   Configuration* work_ = nullptr;
   double now_ = 0;    ///< load time
+  double moved_ = 0;  ///< its last change
   double aim_ = 0;    ///< required product of plane_ with the displacements
   Owned<Vec> plane_;  ///< weights times the direction at the beginning of the step
 };
