@@ -24,6 +24,7 @@ constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
 
 References::References(const Assembler& assembler, double precision)
     : assembler_(assembler),
+      precision_(precision),
       rounding_share_(rounding / precision),
       spans_(assembler.model().nodes.size(), 0.0),
       reach_(spans_.size(), 0.0),
@@ -75,6 +76,7 @@ void References::find_sources() {
   }
   lengths_.assign(sources_.size(), 1.0);
   for (const std::size_t e : signals_) lengths_[e] = least_load;
+  influence_.resize(signals_.size());
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
     const Layout& layout = model.parts[p].element->layout();
     if (layout.own_multipliers() == 0 && layout.scalars.empty()) continue;
@@ -85,6 +87,7 @@ void References::find_sources() {
 
 void References::begin(const Configuration& c) {
   solved_force_ = std::max(solved_force_, last_force_);
+  find_influence(c);
   // reference lengths need not follow every step
   const auto reach = [&](std::size_t i) { return std::max(spans_[i], c.nodes[i].x.norm()); };
   for (std::size_t i = 0; i < spans_.size(); ++i) {
@@ -116,6 +119,22 @@ void References::find_lengths() {
   }
 }
 
+void References::find_influence(const Configuration& c) {
+  const Numbering& numbering = assembler_.numbering();
+  influence_.assign(signals_.size(), {});
+  for (std::size_t s = 0; s < signals_.size(); ++s) {
+    const Unknown& signal = numbering.unknown(static_cast<int>(signals_[s]));
+    const auto slots = numbering.part_slots(signal.part);
+    const auto column = static_cast<std::size_t>(std::find(slots.begin(), slots.end(), signal.slot) - slots.begin());
+    const std::span<const double> k = assembler_.element_tangent(signal.part, c, {1, 0, 0, 0}).k;
+    for (std::size_t row = 0; row < slots.size(); ++row) {
+      const int equation = numbering.equation(slots[row]);
+      const double by = std::abs(k[row * slots.size() + column]);
+      if (equation >= 0 && by > 0 && numbering.unknown(equation).node >= 0) influence_[s].emplace_back(equation, by);
+    }
+  }
+}
+
 void References::find_signals(const Configuration& c) {
   const Numbering& numbering = assembler_.numbering();
   const auto first = static_cast<int>(6 * assembler_.model().nodes.size());
@@ -129,11 +148,17 @@ double References::relative_change(int equation, double change) const {
   const Numbering& numbering = assembler_.numbering();
   const Unknown& u = numbering.unknown(equation);
   const double size = std::abs(change), displacement = size / length(equation);
-  if (!u.multiplier) return displacement;
-  const double k = assembler_.scale()[static_cast<std::size_t>(u.slot - numbering.motion_slots())];
-  return std::min(displacement, k * size / load(equation));
+  if (u.multiplier) {
+    const double k = assembler_.scale()[static_cast<std::size_t>(u.slot - numbering.motion_slots())];
+    return std::min(displacement, k * size / load(equation));
+  }
+  const auto signal = std::lower_bound(signals_.begin(), signals_.end(), static_cast<std::size_t>(equation));
+  if (signal == signals_.end() || *signal != static_cast<std::size_t>(equation)) return displacement;
+  double effect = 0;
+  const auto& forces = influence_[static_cast<std::size_t>(signal - signals_.begin())];
+  for (const auto& [force, by] : forces) effect = std::max(effect, by * size / load(force));
+  return forces.empty() || effect > precision_ ? displacement : 0;
 }
-
 double References::peak(int equation) const {
   const Unknown& u = assembler_.numbering().unknown(equation);
   return std::max(peak_on(static_cast<std::size_t>(u.part), sources_[static_cast<std::size_t>(equation)].turns), load(equation));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "assembly/assembler.hpp"
@@ -39,7 +40,8 @@ class References {
 
   /// Change of an unknown over its reference. The unknown λ of a multiplier is a displacement; its change over the length or
   /// that of the force over the load counts, whichever is less. Where k is small, as for motions without mass, only the force
-  /// shows that nothing changes any more.
+  /// shows that nothing changes any more. A signal of a controller changes nothing either if it changes forces by less than the
+  /// precision: that of a derivative at rest is the rounding of an angle times its gain, and as large as itself.
   double relative_change(int equation, double change) const;
 
   /// Largest force on a node at the ends of iterations so far. Their trial positions, where stiff parts may resist with many
@@ -80,21 +82,24 @@ class References {
   void find_sources();
   void find_lengths();
   void find_signals(const Configuration& c);
+  void find_influence(const Configuration& c);
   Pair& at_node(int node) { return pairs_[static_cast<std::size_t>(node)]; }
   Pair& at_part(std::size_t part) { return pairs_[spans_.size() + part]; }
   Pair& everywhere() { return pairs_.back(); }
 
   const Assembler& assembler_;
-  double rounding_share_;
+  double precision_, rounding_share_;
   std::vector<double> spans_;  ///< of each node: distance to the farthest node that an element joins it with
   std::vector<double> reach_;  ///< of each node: that, or its distance from the origin if that is larger
   std::vector<Inner> inner_;
   std::vector<Pair> pairs_;      ///< loads at each node, then of each element, then the largest of all
   std::vector<Source> sources_;  ///< of each equation
   std::vector<Owner> owners_;
-  std::vector<char> turns_;                   ///< of each multiplier: whether it is a moment
-  std::vector<double> lengths_;               ///< of each equation
-  std::vector<std::size_t> signals_;          ///< equations of signals
+  std::vector<char> turns_;           ///< of each multiplier: whether it is a moment
+  std::vector<double> lengths_;       ///< of each equation
+  std::vector<std::size_t> signals_;  ///< equations of signals, ascending
+  /// For each of them: the equations of forces that it changes directly, and by how much.
+  std::vector<std::vector<std::pair<int, double>>> influence_;
   std::vector<double> largest_of_slot_;       ///< largest load so far, by motion slot
   double solved_force_ = 0, last_force_ = 0;  ///< largest at the ends of iterations, and in the last residual
 };
