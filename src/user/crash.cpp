@@ -9,13 +9,14 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <iterator>
 
 namespace engrane::user {
 
 namespace {
 
-constexpr int watched[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL};
-struct sigaction before[4];
+constexpr int watched[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
+struct sigaction before[std::size(watched)];
 
 void say(const char* text) {
   const std::size_t length = std::strlen(text);
@@ -31,7 +32,7 @@ void crashed(int signal) {
     say(" crashed: compile it with -g (and -fcheck=all in Fortran, -fsanitize=address in C) to see where\n");
     current_routine = nullptr;
   }
-  for (std::size_t i = 0; i < 4; ++i)
+  for (std::size_t i = 0; i < std::size(watched); ++i)
     if (watched[i] == signal) sigaction(signal, &before[i], nullptr);
   // returning repeats the faulting instruction, and the previous handler takes over
 }
@@ -63,7 +64,7 @@ void watch_for_crashes() {
   static const bool installed = [] {
     struct sigaction action {};
     action.sa_handler = crashed;
-    for (std::size_t i = 0; i < 4; ++i) sigaction(watched[i], &action, &before[i]);
+    for (std::size_t i = 0; i < std::size(watched); ++i) sigaction(watched[i], &action, &before[i]);
     static_cast<void>(std::atexit(ended));  // without memory for it, crashes are still reported
     static_cast<void>(std::at_quick_exit(ended));
     return true;

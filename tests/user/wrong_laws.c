@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  * User routines for tests. Most are wrong, each in its own way: what engrane must say about them is in tests/errors/user. */
 #include <math.h>
+#include <stdlib.h>
 
 #include "engrane_user.h"
 
@@ -118,6 +119,27 @@ ROUTINE(ends) {
 ROUTINE(breaks) {
   UNUSED;
   y[0] = x[0] > p[0] ? (x[0] - x[0]) / (p[0] - p[0]) : x[0];
+}
+
+/* Right: its derivative at 0 is zero, and differences are not. */
+ROUTINE(cubic) {
+  UNUSED;
+  y[0] = 3e4 * x[0] * x[0] * x[0] + 15 * x[1] * fabs(x[1]);
+  y[1] = 9e4 * x[0] * x[0];
+  y[2] = 30 * fabs(x[1]);
+}
+
+/* The same with a linear part that its derivative lacks. */
+ROUTINE(cubic_and_linear) {
+  UNUSED;
+  y[0] = 5 * x[0] + 3e4 * x[0] * x[0] * x[0];
+  y[1] = 9e4 * x[0] * x[0];
+}
+
+ROUTINE(aborts) {
+  UNUSED;
+  if (x[0] > p[0]) abort();
+  y[0] = x[0];
 }
 
 ROUTINE(crashes) {

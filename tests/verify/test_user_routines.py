@@ -36,10 +36,20 @@ def test_failure_names_the_routine(tmp_path: Path, routine: str, words: str, ran
     assert done.stderr.count("finite") == words.count("finite"), done.stderr
 
 
-def test_crash_names_the_routine(tmp_path: Path) -> None:
-    done = engrane(deck("wrong_laws", "crashes", 0.5), tmp_path)
+@pytest.mark.parametrize("routine", ["crashes", "aborts"])
+def test_crash_names_the_routine(tmp_path: Path, routine: str) -> None:
+    done = engrane(deck("wrong_laws", routine, 0.5), tmp_path)
     assert done.returncode != 0
-    assert "the user routine crashes of libwrong_laws.so crashed" in done.stderr
+    assert f"the user routine {routine} of libwrong_laws.so crashed" in done.stderr
+
+
+def test_derivatives_that_are_zero(tmp_path: Path) -> None:
+    """Drag v|v| and a cubic spring were refused: at 0 the differences are all that there is."""
+    done = engrane(deck("wrong_laws", "cubic", 0.5), tmp_path)
+    assert done.returncode == 0, done.stderr
+    done = engrane(deck("wrong_laws", "cubic_and_linear", 0.5), tmp_path)
+    assert done.returncode == 1
+    assert "is given as 0, and differences of its force make it 5" in done.stderr
 
 
 @pytest.mark.parametrize(("energy", "status"), [(1, 2), (0, 0)])
