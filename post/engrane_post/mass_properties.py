@@ -72,6 +72,8 @@ def read(path: str | Path) -> tuple[np.ndarray, dict[str, np.ndarray]]:
 
 def of_mesh(points: np.ndarray, cells: dict[str, np.ndarray], density: float) -> MassProperties:
     """From solid cells when there are any, else from the surface."""
+    if points.ndim != 2 or not len(points):
+        raise UserError("The mesh has no nodes.")
     solids = {k: c for k, c in cells.items() if k in SOLIDS and len(c)}
     if solids:
         return of_solids(points, solids, density)

@@ -35,7 +35,7 @@ std::vector<int> cells_of(const CellBook& book, const std::vector<std::string>& 
 
 /// Number of cells of each material, by the record of the material.
 std::unordered_map<const deck::Record*, std::size_t> cells_by_material(const deck::Deck& deck, const Model& model,
-                                                                       const CellBook& book) {
+                                                                       const CellBook& book, bool membranes) {
   std::unordered_map<int, const deck::Record*> materials;  // by number; the last of several with one number counts
   for (const deck::Record& record : deck.records)
     if (record.get<deck::MaterialCard>()) materials[record.id] = &record;
@@ -49,7 +49,8 @@ std::unordered_map<const deck::Record*, std::size_t> cells_by_material(const dec
   }
   std::unordered_map<const deck::Record*, std::size_t> count;
   for (const Model::Part& part : model.parts)
-    if (const auto found = of_cell.find(part.element->id()); part.is_cell() && found != of_cell.end()) ++count[found->second];
+    if (const auto found = of_cell.find(part.element->id()); part.is_cell() && found != of_cell.end())
+      if (membranes || part.element->keeps_shape()) ++count[found->second];
   return count;
 }
 
@@ -63,7 +64,7 @@ void look_at_densities(const deck::Deck& deck, const Model& model, const CellBoo
   const bool motion = moves(model);
   const bool weighs =
       std::any_of(model.gravity.begin(), model.gravity.end(), [](const Gravity& g) { return !g.acceleration.isZero(0); });
-  const auto count = cells_by_material(deck, model, book);
+  const auto count = cells_by_material(deck, model, book, true);
   for (const deck::Record& record : deck.records) {
     const auto* card = record.get<deck::MaterialCard>();
     if (!card || card->density.value_or(0) > 0) continue;
@@ -103,7 +104,7 @@ bool misses_damping(const deck::Deck& deck, const Model& model) {
 /// Warns about undamped cells under ACCURACY: the scheme damps waves that are too fast for the steps, in the run as well as in
 /// the one used to estimate its error (docs/accuracy.md, Beams).
 void look_at_damping(const deck::Deck& deck, const Model& model, const CellBook& book, Diagnostics& diagnostics) {
-  const auto count = cells_by_material(deck, model, book);
+  const auto count = cells_by_material(deck, model, book, false);  // membranes have no damping
   for (const deck::Record& record : deck.records) {
     const auto* card = record.get<deck::MaterialCard>();
     if (!card || !(card->density.value_or(0) > 0) || card->damping > 0 || !count.contains(&record)) continue;

@@ -120,7 +120,9 @@ StartReport Statics::start(Configuration& c) {
         context_.assembler, reference,
         fmt::format("no equilibrium at the start, t = {:.6g}: the stiffness matrix is singular", c.time), resistance);
     if (!free.empty()) throw SolutionFailure(free);
-    why += "; " + explain_residual(context_.assembler, c, newton);
+    const std::string residual = explain_residual(context_.assembler, c, newton);
+    if (residual.empty()) throw SolutionFailure(why + ": " + explain_not_finite(context_.assembler, c));
+    why += "; " + residual;
     why += explain_small_turns(context_.model, c);
     throw SolutionFailure(
         why + ". Loads without NF, and those whose function is not 0 there, act in full from the start: let them grow from 0");
