@@ -8,6 +8,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <set>
 #include <stdexcept>
@@ -362,7 +363,20 @@ std::vector<Companion::Largest> Companion::largest_by_dimension() const {
   return all;
 }
 
+bool Companion::stands_still(const Column& column) const {
+  constexpr double rounding = 32 * std::numeric_limits<double>::epsilon();
+  static const std::map<char, char> places{{'V', 'U'}, {'A', 'U'}, {'W', 'R'}, {'E', 'R'}};
+  if (column.node < 0 || column.channel.size() != 2 || !places.contains(column.channel[0])) return false;
+  const std::string place{places.at(column.channel[0]), column.channel[1]};
+  for (const Column* other = &column; other->node == column.node; --other) {  // those of a node follow one another
+    if (other->channel == place) return other->range() <= rounding * (place[0] == 'U' ? extent_ : 1.0);
+    if (other == columns_.data()) break;
+  }
+  return false;
+}
+
 double Companion::noise_of(const Column& column, const std::vector<Largest>& all) const {
+  if (stands_still(column)) return std::numeric_limits<double>::infinity();
   const Dimension& own = column.dimension;
   const bool is_place = own.mass == 0 && own.time == 0, is_acceleration = own.mass == 0 && own.time == -2;
   // iterations balance loads up to a part of those around, and with them powers and accelerations

@@ -116,6 +116,8 @@ class Companion {
   /// and Validation in Computational Science and Engineering (1998), ch. 5).
   double order_of(const Column& column, long steps, double assumed) const;
   std::vector<Largest> largest_by_dimension() const;
+  /// Whether it is a speed or acceleration of a node along or about an axis in which its place stands still but for rounding.
+  bool stands_still(const Column& column) const;
   /// Largest range of a column that may be rounding and residuals of iterations alone, given the largest of all channels.
   double noise_of(const Column& column, const std::vector<Largest>& all) const;
   /// What the error of a column is a fraction of: its range, or, if most of the range is error, its size. Constants, such as the

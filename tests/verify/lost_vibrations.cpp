@@ -78,7 +78,7 @@ class Released {
 
  private:
   const Collocation collocation_ = Collocation::radau();
-  LostVibrations lost_{collocation_, 18, {{1, 2}}};
+  LostVibrations lost_{collocation_, 1e-12, 1, 18, {{1, 2}}};
   Complex exponent_, phasor_ = 1;
   double swing_ = 0, swing_rate_ = 0, time_ = 0, square_ = 0;
   bool kept_ = false;

@@ -6,6 +6,8 @@
 #include <complex>
 #include <numbers>
 
+#include "solve/algebra/imbalance.hpp"
+
 namespace engrane::solve {
 
 namespace {
@@ -31,8 +33,9 @@ constexpr double near_expected = 2;
 constexpr double excited = 1.5, as_before = 0.6;
 /// A vibration whose ω differs by more than this part is another one.
 constexpr double another = 0.1;
-/// Differences of accelerations below this fraction of their terms are rounding.
-constexpr double noise = 1e-9;
+/// Differences of accelerations below this fraction of their terms are rounding, or what iterations leave: so many times their
+/// precision.
+constexpr double least_noise = 1e-9, noise_of_iterations = 10;
 /// Least part of the energy of a vibration that is found in displacements where nothing but their ratio to accelerations shows
 /// its frequency. In short steps both are rounding, and what iterations leave of motions that are imposed.
 constexpr double least_share = 1e-3;
@@ -53,8 +56,11 @@ std::vector<LostVibrations::Pair> LostVibrations::joined(const Model& model) {
   return pairs;
 }
 
-LostVibrations::LostVibrations(const Collocation& collocation, std::size_t slots, std::vector<Pair> pairs)
+LostVibrations::LostVibrations(const Collocation& collocation, double precision, double extent, std::size_t slots,
+                               std::vector<Pair> pairs)
     : collocation_(collocation),
+      noise_(std::max(least_noise, noise_of_iterations * precision)),
+      extent_(extent),
       slots_(slots),
       pairs_(std::move(pairs)),
       weights_(),
@@ -85,22 +91,32 @@ std::size_t LostVibrations::relative(int a, int b) const {
 
 void LostVibrations::look(std::span<const double> v0, std::span<const double> a0, Stages y, Stages v, Stages a) {
   auto& [of_y, of_v, of_a] = differences_;
+  double sum_of_weights = 0;
+  for (const double weight : weights_) sum_of_weights += std::abs(weight);
   for (std::size_t slot = 0; slot < slots_; ++slot) {
     of_y[slot] = 0;
     of_v[slot] = weights_[0] * v0[slot];
     of_a[slot] = weights_[0] * a0[slot];
-    double terms = std::abs(of_a[slot]);
+    // where forces nearly balance, iterations leave accelerations a part of what they have been
+    double terms = std::max(std::abs(of_a[slot]), sum_of_weights * largest_acceleration(slot / 3));
     for (std::size_t i = 0; i < y.size(); ++i) {
       of_y[slot] += weights_[i + 1] * y[i][slot];
       of_v[slot] += weights_[i + 1] * v[i][slot];
       of_a[slot] += weights_[i + 1] * a[i][slot];
       terms += std::abs(weights_[i + 1] * a[i][slot]);
     }
-    rounding_[slot] = !(std::abs(of_a[slot]) > noise * terms);
+    const double left = negligible_correction * sum_of_weights * (slot % 6 < 3 ? extent_ : 1);
+    rounding_[slot] = !(std::abs(of_a[slot]) > noise_ * terms) || !(std::abs(of_y[slot]) > left);
   }
   for (std::vector<double>& difference : differences_) append_relative(difference);
   for (std::size_t slot = 0; slot < slots_; ++slot)
     if (rounding_[slot]) of_y[slot] = of_v[slot] = of_a[slot] = 0;
+}
+
+double LostVibrations::largest_acceleration(std::size_t group) const {
+  double most = 0;
+  for (const Amplitude& one : groups_[group].amplitudes) most = std::max({most, one.largest, -one.least});
+  return most;
 }
 
 LostVibrations::Effect LostVibrations::effect(double omega_h, double kappa_h) const {
@@ -126,10 +142,11 @@ void LostVibrations::Products::add(double x, double v, double a, double weight) 
   ax += weight * a * x, av += weight * a * v, aa += weight * a * a;
 }
 
-bool LostVibrations::solve(const Products& p, double h, bool slow_beside, Group& group) {
+bool LostVibrations::solve(const Products& p, int steps, double h, bool slow_beside, Group& group) {
   if (!(p.xx > 0) || !(p.aa > 0)) return false;
   const double determinant = p.xx * p.vv - p.xv * p.xv;
-  const bool tells_decay = determinant > independent * p.xx * p.vv;
+  // two steps of one coordinate fit any ω and κ
+  const bool tells_decay = steps > 2 && determinant > independent * p.xx * p.vv;
   // differences of a slow motion that only grow from step to step fit any equation
   if (slow_beside && !tells_decay) return false;
   double stiffness = -p.ax / p.xx, damping = 0;
@@ -166,11 +183,11 @@ bool LostVibrations::fit(Group& group, std::size_t first, double h, bool fresh) 
     f.products.add(differences_[0][first + k], differences_[1][first + k], differences_[2][first + k]);
     for (std::size_t i = 0; i < 3; ++i) f.slow[k][i] = memory_of_fit * f.slow[k][i] + cube * differences_[i][first + k];
   }
-  bool found = solve(f.products, h, false, group);
+  bool found = solve(f.products, f.steps, h, false, group);
   if (!found && f.steps >= enough_steps) {
     Products fast = f.products;
     for (const auto& [x, v, a] : f.slow) fast.add(x, v, a, -1 / f.slow_square);
-    found = solve(fast, h, true, group);
+    found = solve(fast, f.steps, h, true, group);
   }
   if (found) ++f.good;
   return found;

@@ -29,9 +29,9 @@ class LostVibrations {
   /// Pairs of nodes that an element of two nodes joins, none of them the ground, in ascending order.
   static std::vector<Pair> joined(const Model& model);
 
-  /// `slots`: number of motion slots of all nodes, six each. `pairs`: whose relative motions are followed too, in ascending
-  /// order.
-  LostVibrations(const Collocation& collocation, std::size_t slots, std::vector<Pair> pairs);
+  /// `precision`: of iterations, over the loads. `extent`: of the model. `slots`: number of motion slots of all nodes, six each.
+  /// `pairs`: whose relative motions are followed too, in ascending order.
+  LostVibrations(const Collocation& collocation, double precision, double extent, std::size_t slots, std::vector<Pair> pairs);
 
   /// Values at the stages of a step, by stage and slot.
   using Stages = std::span<const std::vector<double>>;
@@ -104,14 +104,17 @@ class LostVibrations {
   Effect effect(double omega_h, double kappa_h) const;
   /// Adds the differences of the step to the fit of a group; true if they are a vibration that matters: sets its rate and decay.
   bool fit(Group& group, std::size_t first, double h, bool fresh) const;
-  /// The same for these products; `slow_beside`: what a slow motion adds has been taken out of them.
-  static bool solve(const Products& products, double h, bool slow_beside, Group& group);
+  /// The same for these products of so many steps; `slow_beside`: what a slow motion adds has been taken out of them.
+  static bool solve(const Products& products, int steps, double h, bool slow_beside, Group& group);
   /// Amplitude of the acceleration in a slot, from the differences of the step; 0 if it is none of the vibration followed there.
   double amplitude(const Group& group, std::size_t slot, const Effect& effect, bool found) const;
+  /// Of the three slots, at ends of steps so far.
+  double largest_acceleration(std::size_t group) const;
   /// Appends the relative values of all pairs to those of the nodes.
   void append_relative(std::vector<double>& values) const;
 
   const Collocation& collocation_;
+  double noise_, extent_;
   std::size_t slots_;
   std::vector<Pair> pairs_;
   std::array<double, 4> weights_;                   ///< of divided differences: the beginning and the stages

@@ -68,7 +68,8 @@ Radau::Radau(SolverContext& context)
     *changes_.emplace_back().out() = context.assembler.new_vector();
   }
   if (error_.wanted() && context.options.target > 0)
-    lost_.emplace(collocation_, 6 * context.model.nodes.size(), LostVibrations::joined(context.model));
+    lost_.emplace(collocation_, context.options.precision, context.model.extent(), 6 * context.model.nodes.size(),
+                  LostVibrations::joined(context.model));
 }
 
 StartReport Radau::start(Configuration& c) {
