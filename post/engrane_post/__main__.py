@@ -79,7 +79,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Runs one command. Exit status 0, or 1 after a sentence on standard error, or as the shell
     has it after Ctrl-C and SIGTERM."""
     words = list(sys.argv[1:] if arguments is None else arguments)
-    args = parser().parse_args(words[:1] if words[:1] == ["figures"] else words)
+    try:
+        args = parser().parse_args(words[:1] if words[:1] == ["figures"] else words)
+    except SystemExit as end:
+        if not end.code:  # --help
+            raise
+        return 1  # 2 is a run that fails
     try:
         if args.command == "figures":
             from . import figures

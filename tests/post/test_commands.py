@@ -142,6 +142,12 @@ def test_help(command, capsys) -> None:
         assert "examples:" in capsys.readouterr().out
 
 
+def test_words_that_are_missing(command, tmp_path: Path) -> None:
+    status, _, err = command("sweep", tmp_path / "deck.dat")
+    assert status == 1
+    assert "required: -D" in err
+
+
 def test_figures_without_results(command, tmp_path: Path) -> None:
     status, _, err = command("figures", "--results", tmp_path)
     assert status == 2

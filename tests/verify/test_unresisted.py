@@ -207,3 +207,27 @@ def test_a_path_ends_at_its_end(formula: str, tmp_path: Path) -> None:
     assert done["run/LOAD_TIME"][-1] == pytest.approx(1, abs=1e-12)
     assert done["run/GROUND_FORCE_Y"][-1] == pytest.approx(100, rel=1e-5)
     assert len(done.t) <= 13
+
+
+@pytest.mark.parametrize("length", ["", "LENGTH 2.000001", "LENGTH 2.5"])
+def test_a_string_that_loads_tighten(length: str, tmp_path: Path) -> None:
+    """A weight that grows from zero on a string: where it is as long as its nodes are apart, nothing holds it
+    sideways at first, and the run ended."""
+    text = f""".NOE
+ I 1
+ I 2 X 0 0 -2
+.MCE
+ I 1 CABLE N 1 2 EA 1D5 {length}
+.CLM
+ FIX NOEUD 1 C 1 2 3
+ FIX NOEUD 2 C 2
+ CHA NOEUD 2 C 3 V -100 NF 1
+.FCT
+ I 1 RAMP 0 0 1 1
+.SAM TYPE STATIC
+.SUB TF 1 H 0.1
+.FIN
+"""
+    found = run(text, tmp_path)
+    natural = float(length.split()[-1]) if length else 2.0
+    assert found["node/2/UZ"][-1] == pytest.approx(2 - natural * (1 + 100 / 1e5), rel=1e-6)

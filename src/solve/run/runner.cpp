@@ -415,8 +415,11 @@ double Runner::find_beyond(double size, double left, Outcome& outcome) {
   const double most = std::min(left, (std::floor(gone * (1 + 1e-12)) + 1) * options_.step - (now_.time - options_.begin));
   Configuration tried = next_;
   Outcome found;
-  // what nothing holds does not snap
-  if (explain_unresisted(context_.assembler, now_, {}).empty()) found = scheme_.snap(now_, size, next_);
+  // what nothing holds does not snap, unless it is a string without load that is tight from now on
+  const auto& parts = context_.model.parts;
+  const bool may_tighten = now_.time == options_.begin &&
+                           std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part.element->has_gaps(); });
+  if (may_tighten || explain_unresisted(context_.assembler, now_, {}).empty()) found = scheme_.snap(now_, size, next_);
   for (double way = size;;) {
     if (found.converged()) {
       outcome = std::move(found);
