@@ -155,3 +155,32 @@ def test_a_portal_with_wind(tmp_path: Path) -> None:
     account, _ = solve(text + rest(".PATH STEPS 80", 1e3), tmp_path, "path")
     limit = account["critical_points"][0]["load_time"]
     assert times == pytest.approx([limit], rel=0.08)
+
+
+def test_a_shallow_truss_is_warned_of(tmp_path: Path) -> None:
+    """It snaps at 37.9, by its rotations, which linearised buckling leaves out."""
+    text = """.NOE
+ I 1 X -10 0 0
+ I 2 X 0 1 0
+ I 3 X 10 0 0
+.MCE
+ I 1 BAR N 1 2 EA 1D5
+ I 2 BAR N 3 2 EA 1D5
+.CLM
+ FIX NOEUD 1 3 C 1 2 3
+ FIX NOEUD 2 C 1 3
+ CHA NOEUD 2 C 2 V -1 NF 1
+.FCT
+ I 1 EXPR "T"
+.SAM TYPE STATIC
+.SUB TF 1 H 0.1
+.BUCKLING MODES 1
+.FIN 1
+"""
+    account, times = buckling(text, tmp_path)
+    length = np.hypot(10, 1)
+    # where N of each bar is EA over the square of its length, at a strain of 1 per cent, which changes the
+    # stiffness itself by 3 strains
+    force = 1e5 / length**2
+    assert times == pytest.approx([2 * force / length], rel=3 / length**2)
+    assert "the loads turn members" in account["said"]
