@@ -447,8 +447,8 @@ void Writer::buckling(const std::vector<BucklingMode>& modes, int asked, const C
   warn({.severity = Severity::warning,
         .location = {},
         .message =
-            fmt::format("until load time {:.6g} the loads turn members, by up to {:.2g} rad, which linearised buckling leaves "
-                        "out; the stiffness against these loads changes by {:.0f} per cent",
+            fmt::format("before load time {:.6g} the loads turn members by up to {:.2g} rad, which changes the stiffness against "
+                        "them by {:.0f} per cent: linearised buckling leaves this out",
                         modes.front().load_time, modes.front().turn, 100 * modes.front().left_out),
         .hint = "follow the equilibria by .PATH, or take them nearer to that load (BASE END)"});
 }

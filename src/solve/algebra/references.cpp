@@ -121,12 +121,15 @@ void References::find_lengths() {
 
 void References::find_influence(const Configuration& c) {
   const Numbering& numbering = assembler_.numbering();
-  influence_.assign(signals_.size(), {});
+  int evaluated = -1;
+  std::span<const double> k;
   for (std::size_t s = 0; s < signals_.size(); ++s) {
     const Unknown& signal = numbering.unknown(static_cast<int>(signals_[s]));
+    if (signal.part != evaluated) k = assembler_.element_tangent(signal.part, c, {1, 0, 0, 0}).k;
+    evaluated = signal.part;
+    influence_[s].clear();
     const auto slots = numbering.part_slots(signal.part);
     const auto column = static_cast<std::size_t>(std::find(slots.begin(), slots.end(), signal.slot) - slots.begin());
-    const std::span<const double> k = assembler_.element_tangent(signal.part, c, {1, 0, 0, 0}).k;
     for (std::size_t row = 0; row < slots.size(); ++row) {
       const int equation = numbering.equation(slots[row]);
       const double by = std::abs(k[row * slots.size() + column]);

@@ -121,7 +121,7 @@ std::vector<double> CarriedBodies::sum(Forces&& forces) const {
       const auto slots = assembler_.numbering().part_slots(part);
       const std::span<const double> of_part = forces(part, slots);
       for (std::size_t i = 0; i < slots.size() && slots[i] < motion; ++i)  // those of multipliers are last
-        by_slot[static_cast<std::size_t>(slots[i])] += give_[static_cast<std::size_t>(part)] * of_part[i];
+        by_slot[static_cast<std::size_t>(slots[i])] -= give_[static_cast<std::size_t>(part)] * of_part[i];
     }
   return by_slot;
 }
@@ -147,7 +147,7 @@ double CarriedBodies::fastest(std::span<const double> rates) const {
   return most;
 }
 
-std::vector<double> CarriedBodies::forces(const Configuration& c) const {
+std::vector<double> CarriedBodies::pull(const Configuration& c) const {
   Configuration still = c;
   for (NodeState& node : still.nodes) node.v = node.W = node.a = node.A = Vec3::Zero();
   std::vector<double> force;
@@ -171,10 +171,8 @@ void Start::carry(Configuration& c, Assembler::Metric metric, std::span<const in
   bool assembled = false;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     std::vector<double> v = motion_.velocities(c);
-    std::vector<double> resistance = bodies.resistance(c, v);
-    for (double& force : resistance) force = -force;
     std::fill(right.begin(), right.end(), 0.0);
-    motion_.gather(resistance, right);
+    motion_.gather(bodies.resistance(c, v), right);
     if (!assembled) assembler_.projection(at_start_of_step(c), metric, held, assembler_.matrix(), bodies.give());
     assembled = true;
     if (!solve(right, change) || !add_coordinates(c, free, change)) return;

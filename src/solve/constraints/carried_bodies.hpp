@@ -39,15 +39,15 @@ class CarriedBodies {
   std::span<const double> give() const { return give_; }
   /// Gives the stiffness more weight. False if it has as much as rounding allows.
   bool stiffen();
-  /// give · K · rates of the bodies, by motion slot, on every rank.
+  /// −give · K · rates of the bodies, by motion slot, on every rank.
   std::vector<double> resistance(const Configuration& c, std::span<const double> rates) const;
   /// Largest rate of a component of their nodes' positions, by motion slot.
   double fastest(std::span<const double> rates) const;
-  /// give · forces of the bodies at rest in the positions of `c`, without weight, by motion slot, on every rank.
-  std::vector<double> forces(const Configuration& c) const;
+  /// −give · forces of the bodies at rest in the positions of `c`, without weight, by motion slot, on every rank.
+  std::vector<double> pull(const Configuration& c) const;
 
  private:
-  /// Sum over the pieces of give · forces(part, its slots), by motion slot.
+  /// Minus the sum over the pieces of give · forces(part, its slots), by motion slot.
   template <class Forces>
   std::vector<double> sum(Forces&& forces) const;
   /// Weight with which stiffness counts 1e8 times as much as what the projection minimises; 0 without mass.

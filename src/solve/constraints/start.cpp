@@ -299,9 +299,7 @@ Start::Closing Start::close(Configuration& c, std::span<const int> held, const T
     }
     if (result.closed || result.iterations == most_iterations || !std::isfinite(open)) return result;
     if (carried_) {
-      std::vector<double> forces = carried_->forces(c);
-      for (double& force : forces) force = -force;
-      motion_.gather(forces, right);
+      motion_.gather(carried_->pull(c), right);
       assembler_.projection(at_start_of_step(c), Assembler::Metric::geometric, held, assembler_.matrix(), carried_->give());
     } else {
       assembler_.projection(c, Assembler::Metric::geometric, held);
@@ -544,7 +542,6 @@ void Start::fit(Configuration& c, Assembler::Metric metric, StartReport* report)
   }
   if (report && fastest > 0) report->rate_violated_most = numbering.describe(static_cast<int>(worst));
   const std::vector<double> wished = v;
-  const Configuration given = c;
   const std::vector<int> held = report ? imposed(true) : std::vector<int>{};
   const auto free = undecided(c, asked, held);
   assembler_.projection(c, metric, held);
@@ -563,8 +560,8 @@ void Start::fit(Configuration& c, Assembler::Metric metric, StartReport* report)
   if (!report) return;
   std::vector<double> changes(c.nodes.size());
   for (std::size_t n = 0; n < changes.size(); ++n) {
-    const NodeState &from = given.nodes[n], &to = c.nodes[n];
-    changes[n] = std::max((to.v - from.v).norm(), extent * (to.W - from.W).norm());
+    const auto change_of = [&](std::size_t slot) { return (Vec3(&v[slot]) - Vec3(&wished[slot])).norm(); };
+    changes[n] = std::max(change_of(6 * n), extent * change_of(6 * n + 3));
   }
   constexpr double slow = 1e-6;  // moves a body by this part of the model in the whole run
   const deck::SteppingCard& stepping = assembler_.model().commands.stepping;

@@ -246,7 +246,6 @@ NewtonReport ArcLength::follow(const Configuration& from, double h, Configuratio
   };
   context_.assembler.spread(guess, unknowns());
   work_ = &to;
-  moved_ = 0;
   NewtonReport report = solve(unknowns(), {1, 0, 0}, apply, to, false, at_end ? nullptr : this);
   refuse_half_turns(y, report);
   if (report.converged && !branching_) {

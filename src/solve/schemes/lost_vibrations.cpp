@@ -72,6 +72,7 @@ LostVibrations::LostVibrations(const Collocation& collocation, double precision,
     for (std::size_t j = 0; j < at.size(); ++j)
       if (j != i) weights_[i] /= at[i] - at[j];
   }
+  for (const double weight : weights_) sum_of_weights_ += std::abs(weight);
   for (std::vector<double>& difference : differences_) difference.assign(slots + 6 * pairs_.size(), 0.0);
 }
 
@@ -91,21 +92,21 @@ std::size_t LostVibrations::relative(int a, int b) const {
 
 void LostVibrations::look(std::span<const double> v0, std::span<const double> a0, Stages y, Stages v, Stages a) {
   auto& [of_y, of_v, of_a] = differences_;
-  double sum_of_weights = 0;
-  for (const double weight : weights_) sum_of_weights += std::abs(weight);
+  double largest = 0;
   for (std::size_t slot = 0; slot < slots_; ++slot) {
     of_y[slot] = 0;
     of_v[slot] = weights_[0] * v0[slot];
     of_a[slot] = weights_[0] * a0[slot];
+    if (slot % 3 == 0) largest = largest_acceleration(slot / 3);
     // where forces nearly balance, iterations leave accelerations a part of what they have been
-    double terms = std::max(std::abs(of_a[slot]), sum_of_weights * largest_acceleration(slot / 3));
+    double terms = std::max(std::abs(of_a[slot]), sum_of_weights_ * largest);
     for (std::size_t i = 0; i < y.size(); ++i) {
       of_y[slot] += weights_[i + 1] * y[i][slot];
       of_v[slot] += weights_[i + 1] * v[i][slot];
       of_a[slot] += weights_[i + 1] * a[i][slot];
       terms += std::abs(weights_[i + 1] * a[i][slot]);
     }
-    const double left = negligible_correction * sum_of_weights * (slot % 6 < 3 ? extent_ : 1);
+    const double left = negligible_correction * sum_of_weights_ * (slot % 6 < 3 ? extent_ : 1);
     rounding_[slot] = !(std::abs(of_a[slot]) > noise_ * terms) || !(std::abs(of_y[slot]) > left);
   }
   for (std::vector<double>& difference : differences_) append_relative(difference);

@@ -118,6 +118,7 @@ class LostVibrations {
   std::size_t slots_;
   std::vector<Pair> pairs_;
   std::array<double, 4> weights_;                   ///< of divided differences: the beginning and the stages
+  double sum_of_weights_ = 0;                       ///< of their magnitudes
   std::array<std::vector<double>, 3> differences_;  ///< of displacements, velocities and accelerations
   std::vector<char> rounding_;                      ///< of each slot of a node: its differences are rounding
   std::vector<Group> groups_;
