@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/mesh_folds.hpp"
 #include "app/mesh_seams.hpp"
 #include "app/selection.hpp"
 #include "deck/cards/mesh_cards.hpp"
@@ -171,6 +172,7 @@ void look_for_cells_twice(const Model& model, Diagnostics& diagnostics) {
 void warn_of_mesh_slips(const deck::Deck& deck, const Model& model, Diagnostics& diagnostics) {
   if (std::none_of(model.parts.begin(), model.parts.end(), [](const Model::Part& part) { return part.is_cell(); })) return;
   look_for_cells_twice(model, diagnostics);
+  warn_of_folded_corners(model, diagnostics);
   warn_of_loose_middles(model, diagnostics);
   warn_of_inner_pressures(model, diagnostics);
   const bool no_density = misses_density(deck, model);

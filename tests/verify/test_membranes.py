@@ -267,3 +267,57 @@ def test_drum(tmp_path: Path) -> None:
     assert left[0] < 0.02
     assert left[1] < 2e-3
     assert left[2] < 1e-4
+
+
+PRESSURES = {
+    "by number": (' GROUP 1 NOM "skin" MAILLES\n  I 1 2', ' PRE GROUP "skin" V 4.'),
+    "of all": (' GROUP 1 NOM "skin" MAILLES TOUT', ' PRE GROUP "skin" V 4.'),
+    "in a box": (' GROUP 1 NOM "skin" MAILLES BOITE 0 2 0 2 0 0.1', ' PRE GROUP "skin" V 4.'),
+    "of a union": (
+        ' GROUP 1 NOM "a" MAILLES\n  I 1\n GROUP 2 NOM "b" MAILLES\n  I 2\n'
+        ' GROUP 3 NOM "skin" MAILLES UNION "a" "b"',
+        ' PRE GROUP "skin" V 4.',
+    ),
+    "of faces": (' GROUP 1 NOM "skin" FACES\n  I 1 1\n  I 2 1', ' PRE GROUP "skin" V 4.'),
+    "one by one": ("", " FACE I 1 1 PRE V 4.\n FACE I 2 1 PRE V 4."),
+}
+
+
+@pytest.mark.parametrize("way", PRESSURES)
+def test_pressure_on_elements(way: str, tmp_path: Path) -> None:
+    """A pressure by PRE on elements MEMBRANE is the same as their own."""
+    group, load = PRESSURES[way]
+
+    def sheet(own: str, loads: str, groups: str) -> np.ndarray:
+        name = "a" if own else "b"
+        solved = run(
+            f""".NOE
+ I 1 X 0 0 0
+ I 2 X 1 0 0
+ I 3 X 2 0 0
+ I 4 X 0 1 0
+ I 5 X 1 1.1 0
+ I 6 X 2 1 0
+.MAT
+ I 1 YT 1E3 NT 0.3
+.MCE
+ I 1 MEMBRANE N 1 2 5 4 MAT 1 THICK 1 TENSION 10 {own}
+ I 2 MEMBRANE N 2 3 6 5 MAT 1 THICK 1 TENSION 10 {own}
+ I 7 SPRING N 2 5 K 2.
+.SEL
+{groups}
+.CLM
+ FIX NOEUD 1 3 4 6 C 1 2 3
+{loads}
+.SAM TYPE STATIC
+.SUB TF 1 H 1
+.FIN 1
+""",
+            tmp_path,
+            name,
+        )
+        return displacement(solved.file)
+
+    expected, found = sheet("PRESSURE 4.", "", ""), sheet("", load, group)
+    assert expected[1, 2] > 0.01
+    assert found == pytest.approx(expected, abs=1e-12)

@@ -11,7 +11,6 @@
 
 #include "elements/common/building.hpp"
 #include "elements/membranes/gas_law.hpp"
-#include "elements/membranes/membrane.hpp"
 #include "elements/membranes/volume_shares.hpp"
 #include "elements/structural/cell.hpp"
 #include "elements/structural/cell_book.hpp"
@@ -124,16 +123,9 @@ class Surface {
 
   /// False after an error.
   bool read(const std::vector<std::string>& groups) {
-    std::map<int, const MembraneData*> membranes;
-    for (const deck::Record& record : *context_.records)
-      if (const auto* data = record.get<MembraneData>()) membranes[record.id] = data;
     bool good = true;
     for (const std::string& name : groups) {
-      std::vector<const deck::GroupCard*> group;
-      for (const deck::Record& record : *context_.records)
-        if (const auto* card = record.get<deck::GroupCard>(); card && card->kind.is("ELEMENTS") && card->is_called(name))
-          group.push_back(card);
-      if (group.empty()) {
+      if (!book_->has_group(name)) {
         context_.diagnostics.missing(".SEL", context_.record.where("GROUP"),
                                      fmt::format("there is no group of elements \"{}\"", name),
                                      "declare it with .SEL GROUP n MAILLES");
@@ -141,12 +133,8 @@ class Surface {
         continue;
       }
       for (const int id : book_->cells(name)) good = add_cell(id) && good;
-      for (const auto& [id, data] : membranes) {
-        const auto holds = [id = id](const deck::GroupCard* card) {
-          return card->all || std::find(card->ids.begin(), card->ids.end(), id) != card->ids.end();
-        };
-        if (std::any_of(group.begin(), group.end(), holds)) add(data->nodes);
-      }
+      for (const int id : book_->other_elements(name))
+        if (const std::vector<int>* nodes = book_->membrane(id)) add(*nodes);
     }
     if (good && cells_.empty()) {
       context_.error("GROUP", "there are no membranes in the group",

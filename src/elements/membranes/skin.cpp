@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Membranes as cells of a mesh. elements/structural only declares make_skin() and does not depend on membranes, which in turn
 // use its shape functions and materials.
+#include "elements/membranes/membrane.hpp"
 #include "elements/membranes/membrane_cells.hpp"
 #include "elements/structural/make_cell.hpp"
 
@@ -22,4 +23,9 @@ MembraneSection section_of(const structural::CellSection& cell) {
 std::unique_ptr<engrane::Element> engrane::elements::structural::make_skin(const CellPlan& plan, BlockStore* blocks) {
   auto section = std::make_shared<const membranes::MembraneSection>(membranes::section_of(*plan.section));
   return membranes::make_membrane(plan.id, plan.shape, plan.nodes, plan.places, std::move(section), plan.warmth, blocks);
+}
+
+const std::vector<int>* engrane::elements::structural::membrane_nodes(const deck::Record& record) {
+  const auto* data = record.get<membranes::MembraneData>();
+  return data ? &data->nodes : nullptr;
 }

@@ -15,6 +15,7 @@
 #include "deck/cards/cards.hpp"
 #include "elements/structural/cell.hpp"
 #include "elements/structural/cell_material.hpp"
+#include "elements/structural/make_cell.hpp"
 #include "math/angle.hpp"
 
 namespace engrane::elements::structural {
@@ -101,8 +102,12 @@ std::shared_ptr<const CellBook> CellBook::of(const BuildContext& context) {
 }
 
 void CellBook::read_cells(const std::vector<deck::Record>& records) {
-  for (const deck::Record& record : records)
-    if (record.get<CellData>()) cells_.push_back({&record});
+  for (const deck::Record& record : records) {
+    if (record.get<CellData>())
+      cells_.push_back({&record});
+    else if (const std::vector<int>* nodes = membrane_nodes(record))
+      membranes_[record.id] = nodes;
+  }
   const auto by_number = [](const Cell& a, const Cell& b) { return a.record->id < b.record->id; };
   if (!std::is_sorted(cells_.begin(), cells_.end(), by_number)) std::sort(cells_.begin(), cells_.end(), by_number);
 }
@@ -182,7 +187,7 @@ void CellBook::number_parts(const std::vector<deck::Record>& records) {
     const auto group = groups_.find(name);
     if (group == groups_.end()) continue;
     std::map<int, int> cut;  // from each part so far to the piece of it that lies in the group
-    for (const std::size_t i : group->second) {
+    for (const std::size_t i : group->second.cells) {
       const auto [piece, fresh] = cut.try_emplace(cells_[i].part, parts);
       if (fresh) ++parts;
       cells_[i].part = piece->second;
@@ -235,7 +240,7 @@ void CellBook::read_rotations(const BuildContext& context) {
 }
 
 void CellBook::assign(const deck::Record& record, const deck::AssignmentCard& assignment) {
-  Group group = members(record, assignment.groups, !assignment.cells.empty());
+  std::vector<std::size_t> group = members(record, assignment.groups, !assignment.cells.empty());
   for (const int id : assignment.cells)
     if (const std::size_t at = index(id); at < cells_.size())
       group.push_back(at);

@@ -87,6 +87,10 @@ class CellBook {
   const std::vector<int>* faces(const std::string& group) const;
   /// Cell numbers of a group; empty if the group does not exist.
   std::vector<int> cells(const std::string& group) const;
+  /// Numbers of the other elements of a group, of `.MCE` and `.LIA`; empty if the group does not exist.
+  std::vector<int> other_elements(const std::string& group) const;
+  /// Nodes of an element MEMBRANE of `.MCE`; nullptr if the element is another one, or does not exist.
+  const std::vector<int>* membrane(int element) const;
   /// Whether there is a group of elements of that name; it may contain no cells.
   bool has_group(const std::string& group) const { return groups_.contains(group); }
   /// Section of a plane, solid or membrane cell; nullptr if something is missing, which has been reported.
@@ -111,7 +115,11 @@ class CellBook {
     std::shared_ptr<const CellSection> section = nullptr;
     std::shared_ptr<const CellRotation> rotation = nullptr;
   };
-  using Group = std::vector<std::size_t>;  ///< indices into `cells_`
+  struct Group {
+    std::vector<std::size_t> cells;  ///< indices into `cells_`
+    std::vector<int> others;         ///< numbers of elements that are not cells
+    bool empty() const { return cells.empty() && others.empty(); }
+  };
 
   void read_cells(const std::vector<deck::Record>& records);
   void read_groups(const std::vector<deck::Record>& records, const NodePositions& nodes);
@@ -141,7 +149,7 @@ class CellBook {
 
   /// Cells of groups given by name or number; reports unknown groups and, unless the record names `others`, warns if it applies
   /// to no cell.
-  Group members(const deck::Record& record, const std::vector<std::string>& groups, bool others = false);
+  std::vector<std::size_t> members(const deck::Record& record, const std::vector<std::string>& groups, bool others = false);
   void report_unknown_group(const deck::Record& record, const char* keyword, const std::string& name);
   const Cell* find(int cell) const;
   std::size_t index(int cell) const;
@@ -158,6 +166,7 @@ class CellBook {
   std::vector<Cell> cells_;                       ///< by number
   std::map<std::string, Group> groups_;
   std::map<std::string, std::vector<int>> faces_;
+  std::map<int, const std::vector<int>*> membranes_;  ///< nodes of the elements MEMBRANE
   std::map<int, const deck::Record*> materials_;
   /// By material number and hypothesis; empty if the material is invalid.
   std::map<std::pair<int, materials::Hypothesis>, std::optional<materials::Elastic>> elastic_;

@@ -12,6 +12,7 @@
 #include "elements/structural/cell.hpp"
 #include "elements/structural/cell_book.hpp"
 #include "model/groups.hpp"
+#include "model/short_form.hpp"
 
 namespace engrane::elements::structural {
 
@@ -25,12 +26,26 @@ bool lies_in_box(const CellData& cell, const std::vector<double>& box, const Nod
   });
 }
 
-/// Numbers of the elements that are not cells.
-std::set<int> other_elements(const std::vector<deck::Record>& records) {
-  std::set<int> numbers;
+/// The elements that are not cells, by number.
+std::map<int, const deck::Record*> other_elements(const std::vector<deck::Record>& records) {
+  std::map<int, const deck::Record*> elements;
   for (const deck::Record& record : records)
-    if (record.id != 0 && (record.schema->command() == ".MCE" || record.schema->name == ".LIA")) numbers.insert(record.id);
-  return numbers;
+    if (record.id != 0 && (record.schema->command() == ".MCE" || record.schema->name == ".LIA")) elements[record.id] = &record;
+  return elements;
+}
+
+/// Whether all nodes that an element names lie in a box of `.SEL`.
+bool lies_in_box(const deck::Record& element, const std::vector<double>& box, const NodePositions& nodes) {
+  Diagnostics unheard;
+  std::set<int> named;
+  return has_nodes_named(element, nodes, unheard, &named) && !named.empty() &&
+         std::all_of(named.begin(), named.end(), [&](int node) { return lies_in(box, nodes.at(node)); });
+}
+
+template <class T>
+void sort_and_unite(std::vector<T>& members) {
+  std::sort(members.begin(), members.end());
+  members.erase(std::unique(members.begin(), members.end()), members.end());
 }
 
 }  // namespace
@@ -38,8 +53,18 @@ std::set<int> other_elements(const std::vector<deck::Record>& records) {
 std::vector<int> CellBook::cells(const std::string& group) const {
   std::vector<int> ids;
   if (const auto found = groups_.find(group); found != groups_.end())
-    for (const std::size_t i : found->second) ids.push_back(cells_[i].record->id);
+    for (const std::size_t i : found->second.cells) ids.push_back(cells_[i].record->id);
   return ids;
+}
+
+std::vector<int> CellBook::other_elements(const std::string& group) const {
+  const auto found = groups_.find(group);
+  return found == groups_.end() ? std::vector<int>{} : found->second.others;
+}
+
+const std::vector<int>* CellBook::membrane(int element) const {
+  const auto found = membranes_.find(element);
+  return found == membranes_.end() ? nullptr : found->second;
 }
 
 const std::vector<int>* CellBook::faces(const std::string& group) const {
@@ -51,7 +76,7 @@ void CellBook::read_groups(const std::vector<deck::Record>& records, const NodeP
   std::map<int, Group> so_far;  // groups by GroupCard::group: what the records up to here give them
   std::map<int, std::vector<int>> faces_of;
   std::map<int, std::set<std::pair<int, int>>> known_faces;
-  std::optional<std::set<int>> others;
+  std::optional<std::map<int, const deck::Record*>> others;  // filled when first needed
   for (const deck::Record& record : records) {
     const auto* card = record.get<deck::GroupCard>();
     if (card && card->kind.is("FACES")) {
@@ -64,19 +89,26 @@ void CellBook::read_groups(const std::vector<deck::Record>& records, const NodeP
     if (!card || !card->kind.is("ELEMENTS")) continue;
     Group& group = so_far[card->group];
     add_members(record, *card, nodes, group);
-    for (const std::string& name : card->names) groups_[name] = group;
-    // a group may also contain elements that are not cells
     std::vector<int> unknown;
     for (const int id : card->ids)
       if (!find(id)) unknown.push_back(id);
-    if (!unknown.empty() && !others) others = other_elements(records);
-    const auto named = unknown.size();
-    std::erase_if(unknown, [&](int id) { return others->contains(id); });
+    const bool chooses = card->all || !card->box.empty();
+    if ((chooses || !unknown.empty()) && !others) others = structural::other_elements(records);
+    std::erase_if(unknown, [&](int id) {
+      if (!others->contains(id)) return false;
+      group.others.push_back(id);
+      return true;
+    });
+    if (chooses)
+      for (const auto& [id, element] : *others)
+        if (card->all || lies_in_box(*element, card->box, nodes)) group.others.push_back(id);
+    sort_and_unite(group.others);
+    for (const std::string& name : card->names) groups_[name] = group;
     if (!unknown.empty())
       diagnostics_.warning(record.location,
                            fmt::format("element {} of this group does not exist{}", unknown.front(),
                                        unknown.size() > 1 ? fmt::format(" (the first of {})", unknown.size()) : ""));
-    else if (group.empty() && named == 0)
+    else if (group.empty())
       diagnostics_.warning(record.location, "this group has no elements");
   }
 }
@@ -88,26 +120,27 @@ void CellBook::add_members(const deck::Record& record, const deck::GroupCard& ca
            (!card.box.empty() && lies_in_box(data, card.box, nodes));
   };
   for (std::size_t i = 0; (card.all || card.attribute || !card.box.empty()) && i < cells_.size(); ++i)
-    if (chosen(cells_[i])) group.push_back(i);
+    if (chosen(cells_[i])) group.cells.push_back(i);
   for (const int id : card.ids)
-    if (const std::size_t at = index(id); at < cells_.size()) group.push_back(at);
+    if (const std::size_t at = index(id); at < cells_.size()) group.cells.push_back(at);
   for (const std::string& name : card.united) {
-    if (const auto other = groups_.find(name); other != groups_.end())
-      group.insert(group.end(), other->second.begin(), other->second.end());
-    else
+    if (const auto other = groups_.find(name); other != groups_.end()) {
+      group.cells.insert(group.cells.end(), other->second.cells.begin(), other->second.cells.end());
+      group.others.insert(group.others.end(), other->second.others.begin(), other->second.others.end());
+    } else {
       report_unknown_group(record, "UNION", name);
+    }
   }
-  std::sort(group.begin(), group.end());
-  group.erase(std::unique(group.begin(), group.end()), group.end());
+  sort_and_unite(group.cells);
 }
 
-CellBook::Group CellBook::members(const deck::Record& record, const std::vector<std::string>& names, bool others) {
-  Group all;
+std::vector<std::size_t> CellBook::members(const deck::Record& record, const std::vector<std::string>& names, bool others) {
+  std::vector<std::size_t> all;
   bool known = !names.empty();
   for (const std::string& name : names) {
     const auto found = groups_.find(name);
     if (found != groups_.end()) {
-      all.insert(all.end(), found->second.begin(), found->second.end());
+      all.insert(all.end(), found->second.cells.begin(), found->second.cells.end());
     } else {
       report_unknown_group(record, "GROUP", name);
       known = false;

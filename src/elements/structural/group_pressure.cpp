@@ -36,7 +36,9 @@ std::unique_ptr<Element> build(const GroupPressureData& data, BuildContext& cont
     }
     std::vector<int> of_skins;  // (cell, face) pairs; a membrane has face 1 only
     for (const int cell : cells) of_skins.insert(of_skins.end(), {cell, 1});
-    const std::vector<int>* faces = cells.empty() ? book->faces(name) : &of_skins;
+    for (const int element : book->other_elements(name))
+      if (book->membrane(element)) of_skins.insert(of_skins.end(), {element, 1});
+    const std::vector<int>* faces = of_skins.empty() ? book->faces(name) : &of_skins;
     if (!faces && book->has_group(name)) continue;
     only_empty = false;
     if (!faces) {
@@ -67,8 +69,9 @@ ElementType group_pressure_type() {
   card.chapter("Boundary conditions, loads and functions")
       .redefines()
       .describe(
-          "On all faces of groups of faces (`.SEL GROUP n FACES`), of solids or of plane cells, or on groups of membranes (`.SEL "
-          "GROUP n MAILLES`). A positive pressure pushes into the cells, and membranes to the side from which their corners go "
+          "On all faces of groups of faces (`.SEL GROUP n FACES`), of solids or of plane cells, or on groups of membranes, cells "
+          "or elements (`.SEL GROUP "
+          "n MAILLES`). A positive pressure pushes into the cells, and membranes to the side from which their corners go "
           "round counterclockwise. With large displacements it follows the faces unless it is DEAD.")
       .example(".CLM\n GROUP \"flank\" PRE V 5. DEAD\n PRE GROUP \"bore\" V 2. NF 1");
   card.add("GROUP", &GroupPressureData::groups, "groups of faces, or of membranes: names or numbers")

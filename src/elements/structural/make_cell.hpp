@@ -28,6 +28,9 @@ std::unique_ptr<Element> make_solid_cell(const CellPlan& plan, BlockStore* block
 /// The same for a membrane in space; defined in elements/membranes/skin.cpp. Returns nullptr if it is folded or has no area.
 std::unique_ptr<Element> make_skin(const CellPlan& plan, BlockStore* blocks);
 
+/// Nodes of a MEMBRANE of `.MCE`; nullptr for records of other cards. Defined in elements/membranes/skin.cpp.
+const std::vector<int>* membrane_nodes(const deck::Record& record);
+
 /// Whether the Jacobian determinant has the same sign, and is not zero, at all stiffness and load points.
 bool is_regular_plane(CellShape shape, const std::vector<Vec3>& places);
 bool is_regular_solid(CellShape shape, const std::vector<Vec3>& places);

@@ -6,7 +6,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <numbers>
-#include <numeric>
 
 #include "elements/structural/cell.hpp"
 #include "elements/structural/make_cell.hpp"
@@ -109,28 +108,36 @@ template class Pressures<3>;
 
 namespace {
 
+/// `nodes` go round the face; a positive `pressure` acts against the normal that this gives.
 template <int D>
-std::unique_ptr<Element> add(const PressureOn& on, const Connectivity& cell, int number,
+std::unique_ptr<Element> add(const PressureOn& on, double pressure, const std::vector<int>& nodes, int number,
                              const std::shared_ptr<const CellSection>& section, BuildContext& context) {
-  typename Pressures<D>::Face face{{}, {}, on.pressure, on.function, on.dead, section};
-  std::vector<int> indices(cell.nodes.size());
-  std::iota(indices.begin(), indices.end(), 0);
-  if (!section->skin) indices = face_nodes(cell.shape, on.face - 1);
-  for (const int i : indices) {
-    const int id = cell.nodes[static_cast<std::size_t>(i)];
-    face.nodes.push_back(id);
-    face.places.push_back(context.nodes.at(id).template head<D>());
-  }
-  std::vector<Vec3> places;
-  for (const int id : cell.nodes) places.push_back(context.nodes.at(id));
-  if (section->skin)
-    face.pressure = -face.pressure;  // acts towards the side from which the corners appear counterclockwise
-  else if (handedness(cell.shape, places) < 0)
-    face.pressure = -face.pressure;
-  const std::size_t count = face.nodes.size();
+  typename Pressures<D>::Face face{nodes, {}, pressure, on.function, on.dead, section};
+  for (const int id : nodes) face.places.push_back(context.nodes.at(id).template head<D>());
+  const std::size_t count = nodes.size();
   BlockStore alone;
   const auto block = (context.blocks ? *context.blocks : alone).block<Pressures<D>>(std::to_string(count), count);
   return std::make_unique<BlockMember>(number, block, block->add(std::move(face)));
+}
+
+bool are_known(const std::vector<int>& nodes, const BuildContext& context) {
+  return std::all_of(nodes.begin(), nodes.end(), [&context](int id) { return context.nodes.contains(id); });
+}
+
+/// On a membrane, whose face is 1: towards the side from which the corners appear counterclockwise.
+std::unique_ptr<Element> on_membrane(const PressureOn& on, const std::vector<int>& nodes, int number, const char* keyword,
+                                     const std::shared_ptr<const CellSection>& section, BuildContext& context) {
+  if (on.face == 1) return add<3>(on, -on.pressure, nodes, number, section, context);
+  context.error(keyword, fmt::format("membrane {} has no face {}", on.cell, on.face), "its face is 1");
+  return nullptr;
+}
+
+/// Section of elements MEMBRANE, as far as a pressure needs it.
+std::shared_ptr<const CellSection> section_of_elements() {
+  CellSection section{materials::Hypothesis::plane_stress, {}};
+  section.linear = false;
+  section.skin.emplace();
+  return std::make_shared<const CellSection>(std::move(section));
 }
 
 }  // namespace
@@ -138,25 +145,31 @@ std::unique_ptr<Element> add(const PressureOn& on, const Connectivity& cell, int
 std::unique_ptr<Element> make_pressure(const PressureOn& on, int number, const char* keyword, const CellBook& book,
                                        BuildContext& context) {
   const deck::Record* record = book.record(on.cell);
-  if (!record) {
+  const std::vector<int>* membrane = record ? nullptr : book.membrane(on.cell);
+  if (!record && !membrane) {
     context.diagnostics.missing(".MAI", context.record.where(keyword), fmt::format("cell {} does not exist", on.cell),
-                                "a face is given by the number of a cell of .MAI and its own");
+                                "a face is given by the number of a cell of .MAI, or of a MEMBRANE, and its own");
     return nullptr;
+  }
+  if (membrane) {  // errors of the membrane are reported when it is built
+    const std::size_t count = membrane->size();
+    const bool whole = are_known(*membrane, context) && (count <= 4 || count == 6 || count == 8);
+    return whole ? on_membrane(on, *membrane, number, keyword, section_of_elements(), context) : nullptr;
   }
   const auto cell = connectivity(record->get<CellData>()->nodes);
   const std::shared_ptr<const CellSection> section = book.section(on.cell);
   // errors of the cell are reported when it is built
-  if (!cell || !section) return nullptr;
-  for (const int id : cell->nodes)
-    if (!context.nodes.contains(id)) return nullptr;
-  const int faces = section->skin ? 1 : face_count(cell->shape);
-  if (on.face >= 1 && on.face <= faces)
-    return is_solid(cell->shape) || section->skin ? add<3>(on, *cell, number, section, context)
-                                                  : add<2>(on, *cell, number, section, context);
+  if (!cell || !section || !are_known(cell->nodes, context)) return nullptr;
+  if (section->skin) return on_membrane(on, cell->nodes, number, keyword, section, context);
+  const int faces = face_count(cell->shape);
   const bool solid = is_solid(cell->shape);
-  if (section->skin) {
-    context.error(keyword, fmt::format("membrane {} has no face {}", on.cell, on.face), "its face is 1");
-    return nullptr;
+  if (on.face >= 1 && on.face <= faces) {
+    std::vector<Vec3> places;
+    for (const int id : cell->nodes) places.push_back(context.nodes.at(id));
+    const double pressure = handedness(cell->shape, places) < 0 ? -on.pressure : on.pressure;
+    std::vector<int> nodes;
+    for (const int i : face_nodes(cell->shape, on.face - 1)) nodes.push_back(cell->nodes[static_cast<std::size_t>(i)]);
+    return solid ? add<3>(on, pressure, nodes, number, section, context) : add<2>(on, pressure, nodes, number, section, context);
   }
   context.error(keyword, fmt::format("cell {} has no {} {}", on.cell, solid ? "face" : "edge", on.face),
                 solid ? fmt::format("its faces are 1 to {}: the base, those on its sides in turn, the top", faces)
