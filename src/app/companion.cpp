@@ -321,7 +321,7 @@ void Companion::succeed(long steps, const SolverOptions& next) {
   estimate_.companion_seconds = now - std::exchange(begun_, now);
   estimate_.companion_tolerance = std::exchange(estimate_.tolerance, next.tolerance);
   precision_ = std::exchange(precision_of_run_, next.precision);
-  for (Column& column : columns_) column.before = compared_ > 0 ? difference(column) : 0;
+  for (Column& column : columns_) column.before = column.earlier = compared_ > 0 ? difference(column) : 0;
   steps_before_ = std::exchange(steps_, steps);
   values_ = std::exchange(values_run_, {});
   compared_ = 0;
@@ -331,6 +331,17 @@ void Companion::succeed(long steps, const SolverOptions& next) {
     column.least = std::numeric_limits<double>::infinity();
     column.largest = -column.least;
   }
+}
+
+std::vector<double> Companion::differences() const {
+  std::vector<double> all;
+  for (std::size_t c = 0; c < columns_.size() && compared_ > 0; ++c) all.push_back(difference(columns_[c]));
+  return all;
+}
+
+void Companion::remember(const std::vector<double>& differences) {
+  if (differences.size() != columns_.size()) return;
+  for (std::size_t c = 0; c < columns_.size(); ++c) columns_[c].earlier = differences[c];
 }
 
 double Companion::difference(const Column& column) const { return std::sqrt(column.squares / static_cast<double>(compared_)); }
@@ -373,6 +384,12 @@ bool Companion::stands_still(const Column& column) const {
     if (other == columns_.data()) break;
   }
   return false;
+}
+
+bool Companion::is_rounding(const Column& column, const std::vector<Largest>& all) const {
+  constexpr double falling = 0.5, small = 1e-4;
+  return column.earlier > 0 && difference(column) > falling * column.earlier &&
+         column.range() < small * find_dimension(all, column.dimension)->range;
 }
 
 double Companion::noise_of(const Column& column, const std::vector<Largest>& all) const {
@@ -498,7 +515,7 @@ ErrorEstimate Companion::estimate(long steps) const {
   const std::vector<Largest> all = largest_by_dimension();
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     const Column& column = columns_[c];
-    if (!(column.range() > noise_of(column, all))) continue;
+    if (!(column.range() > noise_of(column, all)) || is_rounding(column, all)) continue;
     const double order = order_of(column, steps, assumed);
     const double own_share = order < assumed ? std::max(share, std::min(share_of(order), 1.0)) : share;
     const double error = own_share * difference(column) / scale_of(c);

@@ -58,6 +58,10 @@ class Companion {
   bool serves(double tolerance) const;
   /// Makes the run itself, of this number of steps, the companion of a run with the options `next`. On all ranks.
   void succeed(long steps, const SolverOptions& next);
+  /// Differences of the two runs by channel; empty before the run itself, and on ranks other than 0.
+  std::vector<double> differences() const;
+  /// Gives the differences() of a companion and its run, both with a greater TOL, to this one.
+  void remember(const std::vector<double>& differences);
   /// Whether its steps followed TOL rather than HMAX. On all ranks.
   bool follows_tolerance() const { return follows_tolerance_; }
 
@@ -84,6 +88,7 @@ class Companion {
     Dimension dimension;
     double squares = 0, least = 0, largest = 0;
     double before = 0;            ///< difference between the companion and its own companion; 0: it had none
+    double earlier = 0;           ///< difference between two runs with a greater TOL; 0: there were none
     std::vector<int> nodes = {};  ///< of the element, for a force or a velocity: indices into Model::nodes
     int part = -1;                ///< element (index into Model::parts); −1: not a channel of an element
     int node = -1;                ///< index into Model::nodes; −1: not a channel of a node
@@ -118,6 +123,9 @@ class Companion {
   std::vector<Largest> largest_by_dimension() const;
   /// Whether it is a speed or acceleration of a node along or about an axis in which its place stands still but for rounding.
   bool stands_still(const Column& column) const;
+  /// Whether the values of a column that changes far less than others of its dimension do not converge: differences of runs with
+  /// ever smaller TOL do not fall. Such is what rounding of places leaves of the accelerations along stiff parts.
+  bool is_rounding(const Column& column, const std::vector<Largest>& all) const;
   /// Largest range of a column that may be rounding and residuals of iterations alone, given the largest of all channels.
   double noise_of(const Column& column, const std::vector<Largest>& all) const;
   /// What the error of a column is a fraction of: its range, or, if most of the range is error, its size. Constants, such as the

@@ -18,6 +18,8 @@ constexpr double same = 2;
 /// Two runs of a chaotic motion soon differ by more than this part of the range. Smaller differences need one more run to show
 /// that they do not fall: a channel of small range may only begin to be followed.
 constexpr double much = 0.05;
+/// Below, rounding of a step is more than its error.
+constexpr double least_tolerance = 1e-14;
 /// A step of this over ω loses 1.6e-5 of a vibration: a hundredth in 70 periods.
 constexpr double followed = 0.7;
 /// What is lost falls with a power of TOL between 0, while all of it is lost, and 1.75: a step loses (ωh)⁶, and TOL allows
@@ -101,9 +103,12 @@ std::string ErrorEstimate::warning(double target, const std::string& sharper_fai
         "steps lose a vibration with a period of about {:.2g}. Where it matters take HMAX {:.2g} in .SUB; where it does not, "
         "give what vibrates some damping",
         vibration, follows_vibration());
+  else if (advice.empty() && longest > 0)
+    advice = fmt::format("take HMAX {:.1g} in .SUB", longest_for(target, {}));
   else if (advice.empty())
-    advice = longest > 0 ? fmt::format("take HMAX {:.1g} in .SUB", longest_for(target, {}))
-                         : fmt::format("take TOL {:.1g} in .SUB", tolerance_for(target));
+    advice = tolerance_for(target) > least_tolerance
+                 ? fmt::format("take TOL {:.1g} in .SUB", tolerance_for(target))
+                 : "no TOL will reach it, as the numbers of this machine have 16 digits; ask for less, or for other channels";
   return miss(target) + ": " + advice;
 }
 

@@ -191,16 +191,23 @@ int solve_deck(Reading& reading, const Options& options, const std::string& pref
   if (resumption) load_choice(resumption->point.memory, trial.options);
   const bool estimates = trial.options.target > 0 && trial.options.tolerance > 0;
   std::optional<Companion> companion;
+  std::vector<double> differences;  // of earlier runs from their companions, by channel
   for (int repeats = 0;; ++repeats) {
     if (estimates && repeats == 0 && !resumption) companion.emplace(first_companion(reading, trial, comm, options.quiet));
-    if (estimates && !companion) companion.emplace(reading, trial.options, comm, options.quiet, resumption.get());
+    if (estimates && !companion) {
+      companion.emplace(reading, trial.options, comm, options.quiet, resumption.get());
+      companion->remember(differences);
+    }
     trial.may_repeat = trial.may_repeat && repeats < most_repeats;
     Verdict verdict = solve_once(task, trial, companion);
     // "nothing was solved" does not hold for a run whose files could be opened the first time only
     if (!verdict.again)
       return repeats > 0 && verdict.status == exit_status::wrong_deck ? exit_status::solution_failed : verdict.status;
-    trial = std::move(*verdict.again);
-    if (!trial.keeps_companion) companion.reset();
+    const double tolerance = std::exchange(trial, std::move(*verdict.again)).options.tolerance;
+    if (trial.keeps_companion) continue;
+    differences.clear();
+    if (companion && trial.options.tolerance < tolerance) differences = companion->differences();
+    companion.reset();
   }
 }
 
