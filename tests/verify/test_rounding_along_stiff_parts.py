@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A string that vibrates across with an amplitude of 1e-5. Accelerations along it are 3e-6 of those across, and
+"""A string that vibrates across by 1e-5 of its length. Accelerations along it are 3e-6 of those across, and
 part of them is rounding of places, which grows as steps become shorter: no run is made for them."""
 
 import math
