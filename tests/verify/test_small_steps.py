@@ -195,3 +195,40 @@ def test_gear_pair(h: float, tmp_path: Path) -> None:
     assert np.abs(result["1/ANGLE"] - (40 * t + grows * t * t / 2)).max() <= 1e-14 * max(1, 40 * t[-1])
     force = np.abs(result["3/NORMAL_FORCE"]) * np.cos(np.radians(20))
     assert np.abs(force / circumference - 1).max() < 1e-6
+
+
+# crank and rod without mass, as in decks/mechanisms/slider_crank.dat
+MASSLESS = """
+.NOE
+ I 1 X 0 0 0
+ I 2 X (0.2 + sqrt(0.35)/2) 0 0.05
+ I 3 X (0.2 + sqrt(0.35)) 0 0.1
+.MCE
+ I 1 HINGE N 0 1 AXIS 0 0 1 DRIVE SPEED NF 1
+ I 2 SPHERICAL N 1 2 AT 0.2 0 0
+ I 3 UNIVERSAL N 3 2 AXIS 0 1 0 AXIS2 -0.1 0 (sqrt(0.35)) AT (0.2 + sqrt(0.35)) 0 0.1
+ I 4 PRISMATIC N 0 3 AXIS 1 0 0
+ I 5 INERTIA N 3 M 3
+.FCT
+ I 1 EXPR "10"
+.INI
+ VIT NOEUD 1 C 6 V 10
+.SAM TYPE DYNAMIC RHO {rho} SOLVER KLU
+.SUB TF {end!r} H {h!r}
+.FIN 1
+"""
+
+
+@pytest.mark.parametrize("rho", [0, 0.8, 0.9])
+@pytest.mark.parametrize("h", [1e-4, 2e-5, 1e-6, 1e-8])
+def test_massless_links(h: float, rho: float, tmp_path: Path) -> None:
+    """m x'' of the slider, six digits: joints between massless parts had none of its mass, and the errors of
+    several steps add up."""
+    result = run(MASSLESS.format(rho=rho, h=h, end=500 * h), tmp_path)
+    a = 10 * result.t
+    root = np.sqrt(0.35 - 0.04 * np.sin(a) ** 2)
+    curve = -0.2 * np.cos(a) - 0.04 * np.cos(2 * a) / root - (0.04 * np.sin(a) * np.cos(a)) ** 2 / root**3
+    force = 3 * 100 * curve
+    scheme = 3 * (10 * h) ** 2 if rho == 0 else 0.5 * (10 * h) ** 2
+    off = result["2/FORCE_X"] - force
+    assert np.sqrt(np.mean(off**2)) < (1e-6 + scheme) * np.abs(force).max()

@@ -12,10 +12,14 @@ namespace engrane::solve {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon(), none = std::numeric_limits<double>::quiet_NaN();
-/// Rounding of positions is visible if its force exceeds this fraction of the loads.
-constexpr double seen = 1e-7;
+/// Rounding of positions is visible if its force, as several steps add it up, exceeds this fraction of the loads.
+constexpr double seen = 5e-7;
+/// Root of the mean square of the rounding of a position of the size of its length, over ε of that length.
+constexpr double rounded = 0.3;
 /// And this fraction of the squared rotation of a step: the scheme's own error of reactions is about a tenth of that square.
 constexpr double seen_of_scheme = 0.01;
+/// A constraint has parts of hardly any mass on both sides if its stiffness is below this fraction of another's on one of them.
+constexpr double light = 1e-6;
 /// Violations that sums of changes leave are closed so slowly that the force for it is this fraction of the loads.
 constexpr double closing = 1e-9;
 /// A constraint open by more than this fraction of its length is closed by positions.
@@ -25,17 +29,48 @@ constexpr double smooth = 1e-14;
 
 }  // namespace
 
+ConstraintChanges::ConstraintChanges(Assembler& assembler, const Newton& newton, const MotionSlots& motion, double gain)
+    : assembler_(assembler), newton_(newton), motion_(motion), gain_(gain), joined_(2 * assembler.model().nodes.size()) {
+  const Model& model = assembler.model();
+  const int count = assembler.numbering().slots() - assembler.numbering().motion_slots();
+  for (int m = 0; m < count; ++m) {
+    const Unknown& u = assembler.numbering().multiplier(m);
+    for (const int node : model.parts[static_cast<std::size_t>(u.part)].nodes)
+      if (node != 0) joined_[2 * static_cast<std::size_t>(node) + (u.rotational() ? 1 : 0)].push_back(m);
+  }
+}
+
+const std::vector<double>& ConstraintChanges::stiffnesses() {
+  if (scale_ == assembler_.scale()) return stiffness_;
+  scale_ = assembler_.scale();
+  std::vector<double>& k = stiffness_ = scale_;
+  for (bool more = true; more;) {
+    more = false;
+    for (const std::vector<int>& constraints : joined_) {
+      double largest = 0;
+      for (const int m : constraints) largest = std::max(largest, k[static_cast<std::size_t>(m)]);
+      for (const int m : constraints)
+        if (double& own = k[static_cast<std::size_t>(m)]; own < light * largest) {
+          own = largest;
+          more = true;
+        }
+    }
+  }
+  return k;
+}
+
 void ConstraintChanges::begin(const Configuration& from, std::span<const double> y) {
   parts_.clear();
   const std::size_t count = assembler_.scale().size();
   given_.assign(count, none);
+  const std::vector<double>& stiffness = stiffnesses();
   std::vector<double> noise(count, 0.0);
   for (std::size_t m = 0; m < count; ++m) {
     const int i = static_cast<int>(m);
     if (assembler_.released(i)) continue;
-    noise[m] = newton_.relative_force(i, epsilon * newton_.length(i));
+    noise[m] = newton_.relative_force(i, epsilon * newton_.length(i)) * stiffness[m] / assembler_.scale()[m];
     const double turn = moved(i, y) / newton_.length(i);
-    if (noise[m] <= std::max(seen, seen_of_scheme * turn * turn)) {
+    if (rounded * gain_ * noise[m] <= std::max(seen, seen_of_scheme * turn * turn)) {
       noise[m] = 0;
       continue;
     }

@@ -14,8 +14,8 @@ namespace engrane::solve {
 /// is known to ε B y, which is much less. Where the force would be visible, a step closes Φ by its change (decision 21).
 class ConstraintChanges {
  public:
-  ConstraintChanges(Assembler& assembler, const Newton& newton, const MotionSlots& motion)
-      : assembler_(assembler), newton_(newton), motion_(motion) {}
+  /// `gain`: of the noise of several steps over that of one, by the scheme (AlphaScheme::gain_of_noise()).
+  ConstraintChanges(Assembler& assembler, const Newton& newton, const MotionSlots& motion, double gain);
 
   /// Selects the constraints that a step from `from` by about the increment y closes by their change. The scales of the
   /// multipliers must have been chosen for this step.
@@ -27,13 +27,19 @@ class ConstraintChanges {
   void end();
 
  private:
+  /// Scales of the multipliers. A constraint between parts with hardly any mass has that of the constraints that join these parts
+  /// to others: its errors move what is beyond.
+  const std::vector<double>& stiffnesses();
   /// Displacement by the increment of what a constraint joins, at most: a length, or radians.
   double moved(int multiplier, std::span<const double> y) const;
 
   Assembler& assembler_;
   const Newton& newton_;
   const MotionSlots& motion_;
-  std::vector<int> parts_;     ///< elements whose constraints are closed by their change, ascending
+  double gain_;
+  std::vector<double> scale_, stiffness_;  ///< the scales that stiffnesses() had last, and what it made of them
+  std::vector<std::vector<int>> joined_;   ///< by node, twice: multipliers that are forces, and that are moments
+  std::vector<int> parts_;                 ///< elements whose constraints are closed by their change, ascending
   std::vector<double> given_;  ///< part of Φ at the beginning that the step is to close; NaN: Φ is taken from positions
   Configuration between_;
   std::vector<double> phi_, rate_[2], second_[2];

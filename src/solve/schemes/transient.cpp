@@ -24,6 +24,21 @@ AlphaScheme AlphaScheme::hht(double alpha) { return {0, alpha, 0.25 * (1 + alpha
 
 AlphaScheme AlphaScheme::bossak(double alpha) { return {-alpha, 0, 0.25 * (1 + alpha) * (1 + alpha), 0.5 + alpha}; }
 
+double AlphaScheme::gain_of_noise() const {
+  constexpr int most = 1000;  // steps; it grows without end where nothing is damped
+  // a/δ = C/h² (z − 1)² (z + m) / ((z + f)(z² + s z + p)), with C = (1 − α_m)/((1 − α_f) β) that of the step itself
+  const double m = alpha_m / (1 - alpha_m), f = alpha_f / (1 - alpha_f);
+  const double s = (0.5 + gamma - 2 * beta) / beta, p = (0.5 - gamma + beta) / beta;
+  const double driven[] = {1, m - 2, 1 - 2 * m, m}, own[] = {s + f, p + s * f, p * f};
+  double last[3] = {0, 0, 0}, squares = 0;
+  for (int k = 0; k < most; ++k) {
+    const double response = (k < 4 ? driven[k] : 0) - own[0] * last[0] - own[1] * last[1] - own[2] * last[2];
+    squares += response * response;
+    last[2] = std::exchange(last[1], std::exchange(last[0], response));
+  }
+  return std::sqrt(squares);
+}
+
 namespace {
 
 /// A step longer than this many times the one before restarts the memory. Steps that follow their error double again and again
@@ -49,7 +64,9 @@ AlphaScheme coefficients(const SolverOptions& options) {
 }  // namespace
 
 Transient::Transient(SolverContext& context)
-    : Dynamics(context), scheme_(coefficients(context.options)), changes_(context.assembler, context.newton, context.motion) {}
+    : Dynamics(context),
+      scheme_(coefficients(context.options)),
+      changes_(context.assembler, context.newton, context.motion, scheme_.gain_of_noise()) {}
 
 Outcome Transient::attempt(const Configuration& from, double h, Configuration& to) {
   const double am = scheme_.alpha_m, af = scheme_.alpha_f, beta = scheme_.beta, gamma = scheme_.gamma;

@@ -19,6 +19,10 @@ struct AlphaScheme {
   static AlphaScheme hht(double alpha);
   /// Wood, Bossak and Zienkiewicz (1980), α from 0 to 1/3 (given positive).
   static AlphaScheme bossak(double alpha);
+
+  /// Root mean square of the accelerations that independent errors of imposed positions cause, over that of the accelerations
+  /// that one step would make of them. Each step hands what they leave to the next ones, with the sign changed.
+  double gain_of_noise() const;
 };
 
 /// Generalised-α on the Lie group, constraints at index 3 (Arnold and Brüls 2007; Brüls, Cardona and Arnold 2012).
