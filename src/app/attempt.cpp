@@ -251,7 +251,7 @@ Schedule::Due Attempt::show_instants(Instants& instants, const Configuration& so
 
 void Attempt::observe(const Configuration& seen, const StepReport& step, const Schedule::Due& due) {
   const int iterations = step.newton ? step.newton->iterations : 0;
-  observe::Step observed{step.step, iterations, step.events.size(), step.corner, step.impulse};
+  observe::Step observed{step.step, iterations, step.events.size(), step.corner, step.drift && step.corner, step.impulse};
   if (step.course) {
     observed.unstable = step.course->unstable;
     observed.critical_time = step.course->critical_time;

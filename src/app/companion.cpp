@@ -30,6 +30,8 @@ namespace {
 /// The companion's tolerance over that of the run: steps are about twice as long, or three times those of generalised-alpha.
 constexpr double looser = 10, loosest = 0.05, longer = 2;
 constexpr double loosest_precision = 2e-5;
+/// Least ratio of how sharply they meet events.
+constexpr double blunter = 4;
 /// A run may be the companion of the next where its tolerance is so much looser.
 constexpr double least_looser = 8, most_looser = 20;
 /// Results are taken to differ by this power of the ratio of steps (docs/accuracy.md, The dial: what fits nine models best).
@@ -108,6 +110,9 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
   SolverOptions loose =
       with_tolerance(model, options, std::min(looser * options.tolerance, std::max(loosest, 2 * options.tolerance)));
   loose.longest *= longer;
+  // otherwise both meet the first event, before which they are alike, at the same wrong instant
+  if (model.commands.analysis.events.values.empty())
+    loose.event_tolerance = std::max(loose.event_tolerance, blunter * options.event_tolerance);
   loose.target = 0;  // it needs no estimate of its own
   precision_ = loose.precision;
   estimate_.tolerance = options.tolerance;
@@ -154,6 +159,7 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
     observer.observe(context.out_of_plane.completed(c), {step.step, 0, step.events.size(), step.corner}, true, false);
     if (instants) instants->show([&](double time, const Schedule::Due&) { take(time); });
     if (schedule.even(c.time)) take(c.time);
+    if (step.chatter) progress.note("engrane: for the estimate: " + chatter_note(c.time));
     progress.update(c.time, step.step, step.number);
     last = c.time;
     if (were_interrupted(comm, ranks)) return false;  // the run itself then ends at its start

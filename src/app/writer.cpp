@@ -60,6 +60,13 @@ constexpr std::size_t most_listed_bodies = 100, most_listed_peaks = 400;
 
 }  // namespace
 
+std::string chatter_note(double time) {
+  return fmt::format(
+      "t = {:.6g}: events come too thick to be met one by one; some steps pass over them. Where a law jumps and the motion stays "
+      "at the jump, as with a relay, a steep slope in the place of the jump takes fewer steps",
+      time);
+}
+
 Writer::Writer(const Reading& reading, const observe::Observer& observer, const Schedule& schedule, const Options& options,
                const std::string& prefix, const Resumption* resumed, RunSummary& summary)
     : reading_(reading),
@@ -396,8 +403,7 @@ void Writer::note_events(const Configuration& c, const StepReport& step) {
     events_ += fmt::format("  t = {:<14.9g} {}: {}\n", c.time, part.name(), e.rises ? names.rises : names.falls);
   }
   if (!step.chatter) return;
-  const std::string text =
-      fmt::format("t = {:.6g}: events come too thick to be met one by one; some steps pass over them", c.time);
+  const std::string text = chatter_note(c.time);
   events_ += "  warning: " + text + "\n";
   progress_.note("engrane: " + text);
 }

@@ -24,6 +24,9 @@
 
 namespace engrane::app {
 
+/// What is told where events are too dense to be located.
+std::string chatter_note(double time);
+
 /// An earlier run, and the restart point from which this run continues it.
 struct Resumption {
   output::RestartFile earlier;

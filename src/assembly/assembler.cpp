@@ -91,7 +91,7 @@ State Assembler::view(int part, const Configuration& c) const {
     return std::span(all).subspan(static_cast<std::size_t>(begin), count);
   };
   State s;
-  s.nodes = {c.nodes, p.nodes};
+  s.nodes = {c.nodes, p.nodes, c.remainders};
   s.scalars = piece(c.scalars, numbering_.scalar_begin(part), layout.scalars.size());
   s.scalar_rates = piece(c.scalar_rates, numbering_.scalar_begin(part), layout.scalars.size());
   s.scalar_accelerations = piece(c.scalar_accelerations, numbering_.scalar_begin(part), layout.scalars.size());

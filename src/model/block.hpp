@@ -43,6 +43,7 @@ class Block {
   virtual bool applied(std::size_t /*e*/, const State& /*state*/, std::span<double> /*forces*/) const { return false; }
   virtual CellShape cell_shape() const { return CellShape::none; }
   virtual bool keeps_shape() const { return false; }
+  virtual bool sees_remainders() const { return false; }
   virtual bool in_mesh() const { return true; }
   virtual bool is_body() const { return false; }
   virtual bool is_linear(std::size_t) const { return false; }
@@ -91,6 +92,7 @@ class BlockMember final : public Element {
   bool applied(const State& state, std::span<double> forces) const override { return block_->applied(index_, state, forces); }
   CellShape cell_shape() const override { return block_->cell_shape(); }
   bool keeps_shape() const override { return block_->keeps_shape(); }
+  bool sees_remainders() const override { return block_->sees_remainders(); }
   bool in_mesh() const override { return block_->in_mesh(); }
   bool is_body() const override { return block_->is_body(); }
   bool is_linear() const override { return block_->is_linear(index_); }

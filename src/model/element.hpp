@@ -211,12 +211,17 @@ class NodeStates {
     all_ = all.data();
     size_ = all.size();
   }
-  /// The nodes at the positions `index`.
-  NodeStates(std::span<const NodeState> all, std::span<const int> index)
-      : all_(all.data()), index_(index.data()), size_(index.size()) {}
+  /// The nodes at the positions `index`. `remainders`: Configuration::remainders; empty: all are zero.
+  NodeStates(std::span<const NodeState> all, std::span<const int> index, std::span<const double> remainders = {})
+      : all_(all.data()), index_(index.data()), remainders_(remainders.data()), size_(index.size()) {}
 
   const NodeState& operator[](std::size_t i) const { return all_[index_ ? static_cast<std::size_t>(index_[i]) : i]; }
   std::size_t size() const { return size_; }
+  /// What rounding has left of the position: x − X + rest is the displacement from X, also where it is below the rounding of x.
+  Vec3 rest(std::size_t i) const {
+    return remainders_ ? Vec3(Eigen::Map<const Vec3>(remainders_ + 6 * (index_ ? static_cast<std::size_t>(index_[i]) : i)))
+                       : Vec3(Vec3::Zero());
+  }
   NodeStates first(std::size_t count) const {
     NodeStates part = *this;
     part.size_ = count;
@@ -226,6 +231,7 @@ class NodeStates {
  private:
   const NodeState* all_ = nullptr;
   const int* index_ = nullptr;
+  const double* remainders_ = nullptr;
   std::size_t size_ = 0;
 };
 
@@ -355,6 +361,8 @@ class Element {
   virtual CellShape cell_shape() const { return CellShape::none; }
   /// Whether it is a piece of an elastic body that resists every change of shape: a cell or a beam, but no membrane.
   virtual bool keeps_shape() const { return false; }
+  /// Whether its forces depend on displacements with what rounding has left of them (NodeStates::rest), not on positions.
+  virtual bool sees_remainders() const { return false; }
   /// Whether its tangent turns with its nodes: a rigid-body motion changes no force in axes that move along.
   virtual bool turns_with_nodes() const { return keeps_shape() || cell_shape() != CellShape::none; }
   /// Whether the element has its own entity in the mesh of the results; a pressure, for example, is part of its cell.

@@ -37,8 +37,13 @@ std::optional<VaryingGravity> Model::varying_gravity_at(double time) const {
 
 namespace {
 
-/// A function with more of them is a measured curve, not smoother between them.
-constexpr std::size_t most_joints = 100;
+/// A table or a spline with more of them is a measured curve, not smoother between them. Formulas and periodic functions, such as
+/// those that switch a motor on and off, mean each of theirs.
+constexpr std::size_t most_joints = 100, most_meant = 10'000;
+
+std::size_t most_joints_of(const Function& function) {
+  return function.formula() || function.period() > 0 ? most_meant : most_joints;
+}
 
 /// Nodes closer than this fraction of their distance from the origin coincide: computed coordinates differ in their last
 /// digits.
@@ -93,9 +98,9 @@ KnownLengths known_lengths(const Model& model) {
 std::vector<double> Model::joints(double from, double to) const {
   std::set<double> all;
   for (const Function* function : of_time) {
-    std::vector<double> found = function->joints(from, to, most_joints);
+    std::vector<double> found = function->joints(from, to, most_joints_of(*function));
     // a long spline still has the corners at its ends
-    if (found.empty()) found = function->corners(from, to, most_joints);
+    if (found.empty()) found = function->corners(from, to, most_joints_of(*function));
     all.insert(found.begin(), found.end());
   }
   return {all.begin(), all.end()};
@@ -104,7 +109,7 @@ std::vector<double> Model::joints(double from, double to) const {
 std::vector<double> Model::corners(double from, double to) const {
   std::set<double> all;
   for (const Function* function : of_time) {
-    const std::vector<double> found = function->corners(from, to, most_joints);
+    const std::vector<double> found = function->corners(from, to, most_joints_of(*function));
     all.insert(found.begin(), found.end());
   }
   return {all.begin(), all.end()};

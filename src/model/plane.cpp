@@ -442,9 +442,12 @@ bool asks_plane_cells_for_z(const Model& model) {
       if (!part.element->layout().has(i, 2)) flat[static_cast<std::size_t>(part.nodes[i])] = true;
   return std::any_of(model.parts.begin(), model.parts.end(), [&](const Model::Part& part) {
     if (is_cell(part)) return false;
-    for (std::size_t i = 0; i < part.nodes.size(); ++i)
-      if (flat[static_cast<std::size_t>(part.nodes[i])] && part.element->layout().has(i, 2)) return true;
-    return false;
+    bool touches = false, moves_along_z = false;  // a link may do both at different nodes
+    for (std::size_t i = 0; i < part.nodes.size(); ++i) {
+      touches = touches || flat[static_cast<std::size_t>(part.nodes[i])];
+      moves_along_z = moves_along_z || (part.nodes[i] > 0 && part.element->layout().has(i, 2));
+    }
+    return touches && moves_along_z;
   });
 }
 

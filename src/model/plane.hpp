@@ -44,7 +44,7 @@ std::vector<PlaneFault> examine_plane(const Model& model, int normal, std::size_
 /// Of the planes to which the motion of the model is confined, the one with the fewest unknowns; not active if there is none.
 PlaneModel find_plane(const Model& model);
 
-/// Whether elements other than cells ask for the z translation of nodes of plane cells, which those do not have.
+/// Whether elements other than cells on nodes of plane cells, which have no z translation, ask for one there or at other nodes.
 bool asks_plane_cells_for_z(const Model& model);
 
 /// Slots (6 node + component) that are out of plane and would be unknowns in space, ascending.

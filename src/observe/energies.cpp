@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "assembly/configuration_snapshot.hpp"
+#include "model/filled.hpp"
 
 namespace engrane::observe {
 
@@ -52,8 +53,34 @@ EnergyLedger::Moment EnergyLedger::moment_at(const Configuration& c, const std::
   return moment;
 }
 
-void EnergyLedger::add(const Configuration& c, const std::vector<Reaction>& reactions, bool impulse) {
-  const Moment moment = moment_at(c, reactions);
+EnergyLedger::Moment EnergyLedger::beside_corner(const Configuration& c, const std::vector<Reaction>& reactions, int side) {
+  constexpr double near = 1e-9;
+  Configuration beside = c;
+  beside.lead += side * near * (c.time - last_time_before_);
+  Moment moment = moment_at(c, reactions);
+  const Moment powers = moment_at(beside, reactions);
+  moment.energies.external = powers.energies.external;
+  moment.energies.dissipated = powers.energies.dissipated;
+  return moment;
+}
+
+double EnergyLedger::work_of_jump(const Configuration& c) const {
+  Configuration before = c;
+  before.lead += last_time_ - c.time;
+  double work = 0;
+  for (const int p : assembler_.own_parts()) {
+    const Element& element = *assembler_.model().part(p).element;
+    if (filled(element)) continue;  // fill_to() has their work
+    work += element.energies(assembler_.view(p, c)).potential - element.energies(assembler_.view(p, before)).potential;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &work, 1, MPI_DOUBLE, MPI_SUM, assembler_.comm());
+  return work;
+}
+
+void EnergyLedger::add(const Configuration& c, const std::vector<Reaction>& reactions, const End& end) {
+  last_time_before_ = last_time_;
+  const bool corner = end.corner && moves_ && started_;
+  const Moment moment = corner ? beside_corner(c, reactions, -1) : moment_at(c, reactions);
   const Energies& sum = moment.energies;
   if (!started_) {
     balance_.initial = sum.kinetic + sum.potential;
@@ -64,7 +91,7 @@ void EnergyLedger::add(const Configuration& c, const std::vector<Reaction>& reac
     balance_.external_work += work.mean();
     if (const double lost = work.lost(sum.potential - last_potential_); std::abs(lost) > std::abs(balance_.jump.lost))
       balance_.jump = {last_time_, c.time, lost};
-  } else if (impulse) {
+  } else if (end.impulse) {
     end_steps_inside();
     const double work = sum.kinetic - balance_.kinetic;
     balance_.external_work += work;
@@ -76,6 +103,11 @@ void EnergyLedger::add(const Configuration& c, const std::vector<Reaction>& reac
     end_steps_inside();
     integrate_to(moment);
   }
+  if (started_ && moves_ && end.jump) {
+    const double work = work_of_jump(c);
+    balance_.external_work += work;
+    balance_.passed += std::abs(work);
+  }
   started_ = true;
   arrive(moment);
   if (!moves_) before_ = PackedConfiguration(c);
@@ -83,7 +115,7 @@ void EnergyLedger::add(const Configuration& c, const std::vector<Reaction>& reac
 
 void EnergyLedger::add_inside(const Configuration& c, const std::vector<Reaction>& reactions) {
   if (!moves_) {
-    add(c, reactions);
+    add(c, reactions, {});
     balances_inside_.push_back(balance_);
     return;
   }
@@ -179,8 +211,13 @@ void EnergyLedger::arrive(const Moment& moment) {
   last_fillings_ = moment.fillings;
 }
 
-void EnergyLedger::begin_anew() {
+void EnergyLedger::begin_anew(const Configuration& c, const std::vector<Reaction>& reactions) {
   powers_.clear();
+  if (moves_) {
+    const Energies powers = beside_corner(c, reactions, 1).energies;
+    external_power_ = powers.external;
+    dissipated_power_ = powers.dissipated;
+  }
   if (smooth_) powers_.add(last_time_, std::array{external_power_, dissipated_power_});
 }
 

@@ -50,9 +50,14 @@ class EnergyLedger {
   /// `moves`: the analysis has velocities; otherwise the work is computed between equilibria.
   EnergyLedger(Assembler& assembler, Reactions& supports, bool moves);
 
-  /// Adds the next accepted configuration; the first one is the start. `impulse`: speeds of drives have jumped since the last
-  /// one; the change of the kinetic energy is their work, as joints do none. Collective.
-  void add(const Configuration& c, const std::vector<Reaction>& reactions, bool impulse = false);
+  /// How a step ends.
+  struct End {
+    bool corner = false;   ///< a function of time has a corner there: powers are those before it
+    bool jump = false;     ///< a function of time has jumped since the last configuration, while nothing moved
+    bool impulse = false;  ///< speeds of drives have jumped: the change of the kinetic energy is their work, as joints do none
+  };
+  /// Adds the next accepted configuration; the first one is the start. Collective.
+  void add(const Configuration& c, const std::vector<Reaction>& reactions, const End& end);
   /// Takes a configuration inside the step whose end is added next, at the first of the lobatto_points and then at the second.
   /// The work there is known when that end has been added. Collective.
   void add_inside(const Configuration& c, const std::vector<Reaction>& reactions);
@@ -62,8 +67,9 @@ class EnergyLedger {
   /// Discards the previous powers, as after an event: the power may jump. In the step that is added next, it may do so behind
   /// the points inside.
   void forget();
-  /// Continues from the power of the last configuration, but not with its slope, as after a corner of a function of time.
-  void begin_anew();
+  /// Continues from the power of the last configuration behind a corner of a function of time, which may jump there, and not with
+  /// its slope. Collective.
+  void begin_anew(const Configuration& c, const std::vector<Reaction>& reactions);
   const EnergyBalance& balance() const { return balance_; }
 
   /// For a restart. load() also takes the last configuration added from the snapshot.
@@ -77,6 +83,10 @@ class EnergyLedger {
     Fillings::At fillings;
   };
   Moment moment_at(const Configuration& c, const std::vector<Reaction>& reactions);
+  /// The same with the powers that functions of time give a little before (−1) or after (1) a corner at its end.
+  Moment beside_corner(const Configuration& c, const std::vector<Reaction>& reactions, int side);
+  /// Work of functions of time that have jumped since the last configuration, such as temperatures and lengths.
+  double work_of_jump(const Configuration& c) const;
   /// Integrates the powers from the last moment to this one, by the polynomial or the trapezoidal rule.
   void integrate_to(const Moment& moment);
   /// Integrates the powers over the whole step with the points inside.
@@ -100,6 +110,7 @@ class EnergyLedger {
   EnergyBalance balance_;
   double initial_potential_ = 0, last_potential_ = 0;
   double external_power_ = 0, dissipated_power_ = 0, last_time_ = 0;
+  double last_time_before_ = 0;  ///< of the configuration before the one that is, or was last, added
   bool smooth_ = false;
   Extrapolation powers_;        ///< external and dissipated power
   std::vector<Moment> inside_;  ///< of the step whose end is added next

@@ -18,14 +18,14 @@ namespace {
 struct NodalKind {
   Named named;
   bool of_motion;  ///< only for analyses with motion
-  Vec3 (*value)(const Vec3& reference, const NodeState& node, const Reaction& reaction);
+  Vec3 (*value)(const Vec3& displacement, const NodeState& node, const Reaction& reaction);
 };
 
 const std::vector<NodalKind>& nodal_kinds() {
   static const std::vector<NodalKind> kinds = {
       {{"displacement", dimension::length, "displacement"},
        false,
-       [](const Vec3& reference, const NodeState& node, const Reaction&) -> Vec3 { return node.x - reference; }},
+       [](const Vec3& displacement, const NodeState&, const Reaction&) -> Vec3 { return displacement; }},
       {{"rotation", dimension::angle, "rotation vector"},
        false,
        [](const Vec3&, const NodeState& node, const Reaction&) -> Vec3 { return rotation_log(node.R); }},
@@ -277,7 +277,8 @@ std::vector<NodalField> nodal_fields(const Model& model, const Configuration& c,
     NodalField& field = fields.emplace_back(NodalField{kind.named, {}});
     field.rows.reserve(3 * (c.nodes.size() - 1));
     for (std::size_t i = 1; i < c.nodes.size(); ++i) {
-      const Vec3 value = kind.value(model.nodes[i].x, c.nodes[i], reaction_of[i] ? *reaction_of[i] : none);
+      const Vec3 displacement = c.nodes[i].x - model.nodes[i].x + Eigen::Map<const Vec3>(&c.remainders[6 * i]);
+      const Vec3 value = kind.value(displacement, c.nodes[i], reaction_of[i] ? *reaction_of[i] : none);
       field.rows.insert(field.rows.end(), value.data(), value.data() + 3);
     }
   }

@@ -98,13 +98,13 @@ void Observer::observe(const Configuration& c, const Step& step, bool histories,
   // nothing continues across an event; a drift is interpolated linearly, and the points of the next step begin at its end
   const bool inside = !inside_.empty(), begins = step.events > 0 && !inside;
   if (step.events > 0) ledger_.forget();
-  ledger_.add(c, last_reactions_, step.impulse);
+  ledger_.add(c, last_reactions_, {step.corner, step.jump, step.impulse});
   keep_inside();
   if (step.events > 0 && interpolation_) interpolation_->begin_anew();
   events_ += static_cast<double>(step.events);
   if (fields) find_fields(c);
   if (histories || interpolation_) evaluate_histories(c, step);
-  if (step.corner) ledger_.begin_anew();
+  if (step.corner) ledger_.begin_anew(c, last_reactions_);
   if (!interpolation_) return;
   interpolation_->add(c.time, values_, sources_);
   if (!inside && !begins) interpolation_->doubt();

@@ -22,6 +22,7 @@ struct Step {
   int iterations = 0;      ///< Newton iterations
   std::size_t events = 0;  ///< number of events in the step
   bool corner = false;     ///< a function of time has a corner at its end
+  bool jump = false;       ///< a function of time has jumped in it, while nothing moved
   bool impulse = false;    ///< the speed of a drive has jumped, and the velocities with it
   // along an equilibrium path
   int unstable = 0;          ///< number of unstable directions at this equilibrium

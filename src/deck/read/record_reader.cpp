@@ -271,10 +271,13 @@ void RecordReader::finish(Reading& reading) {
 
 std::vector<Heading> RecordReader::read_headings(const Schema& schema, const RecordKeys& keys) {
   std::vector<Heading> headings;
-  while (!at_boundary(tokens_, keys) && !tokens_.mend_command()) {
+  while (!at_boundary(tokens_, keys)) {
+    const Token& next = tokens_.peek();
+    const Match<Field> match = next.is_word() ? match_field(schema, next.text) : Match<Field>{};
+    const bool heads = match.entry && match.entry->heading;
+    if (!heads && tokens_.mend_command()) break;
     const Token token = tokens_.take();
-    const Match<Field> match = token.is_word() ? match_field(schema, token.text) : Match<Field>{};
-    if (match.entry && match.entry->heading) {
+    if (heads) {
       FieldReading& result = values_.read(*match.entry, schema, keys, token.where);
       if (!result.faulty) headings.push_back({match.entry, std::move(result.values), result.where});
       continue;

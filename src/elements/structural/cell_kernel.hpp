@@ -292,9 +292,12 @@ class CellKernel : public CellStrain<CellTraits<S>::dimension, Axi> {
   }
 
   void add_moves(const Point& p, const Moves& moves, Deformation& d) const {
-    d.F += dyads(moves, p.gradient);
-    if constexpr (Axi)
-      for (int n = 0; n < columns; ++n) d.hoop += moves(0, n) * p.hoop[static_cast<std::size_t>(n)];
+    d.H = dyads(moves, p.gradient);
+    d.F += d.H;
+    if constexpr (Axi) {
+      for (int n = 0; n < columns; ++n) d.hoop_strain += moves(0, n) * p.hoop[static_cast<std::size_t>(n)];
+      d.hoop += d.hoop_strain;
+    }
   }
 
   Point points_[most_points];

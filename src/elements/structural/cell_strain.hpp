@@ -31,24 +31,26 @@ struct CellStrain {
   static Stiffness reduced(const materials::Moduli& full) { return full(components, components); }
   static Strain reduced(const materials::Voigt& full) { return full(components); }
 
-  /// Deformation at a point: the gradient F and, in axisymmetry, the circumferential stretch.
+  /// Deformation at a point: the gradient F and, in axisymmetry, the circumferential stretch. Both also less what they are
+  /// without displacements, as small strains would be rounding in them.
   struct Deformation {
     Square F = Square::Identity();
     double hoop = 1;
+    Square H = Square::Zero();  ///< F − 1
+    double hoop_strain = 0;     ///< hoop − 1
 
     bool is_right_way_round() const { return F.determinant() > 0 && hoop > 0; }
   };
 
   /// Green–Lagrange strain, or its linear part.
   static Strain strain(const Deformation& d, bool linear) {
-    const Square H = d.F - Square::Identity();
-    Square E = (H + H.transpose()) / 2;
-    if (!linear) E += H.transpose() * H / 2;
+    Square E = (d.H + d.H.transpose()) / 2;
+    if (!linear) E += d.H.transpose() * d.H / 2;
     Strain e;
     for (int i = 0; i < D; ++i) e[i] = E(i, i);
     for (int i = 0; i < shears; ++i) e[normals + i] = 2 * E(i, (i + 1) % D);
     if constexpr (Axi) {
-      const double h = d.hoop - 1;
+      const double h = d.hoop_strain;
       e[2] = linear ? h : h + h * h / 2;
     }
     return e;

@@ -53,6 +53,7 @@ class Cells final : public Block {
   std::span<const int> node_ids(std::size_t e) const override { return cells_[e].nodes; }
   CellShape cell_shape() const override { return S; }
   bool keeps_shape() const override { return true; }
+  bool sees_remainders() const override { return true; }
   const char* why_not_finite() const override {
     return "is turned inside out, or distorted so far that its forces are no numbers: smaller steps H, loads that grow from "
            "zero (NF), or a finer mesh";
@@ -243,7 +244,8 @@ class Cells final : public Block {
   static Places displacements(const Cell& cell, const State& state) {
     Places u;
     for (Eigen::Index i = 0; i < N; ++i)
-      column(u, i) = state.nodes[static_cast<std::size_t>(i)].x.template head<D>() - column(cell.places, i);
+      column(u, i) = state.nodes[static_cast<std::size_t>(i)].x.template head<D>() - column(cell.places, i) +
+                     state.nodes.rest(static_cast<std::size_t>(i)).template head<D>();
     return u;
   }
 

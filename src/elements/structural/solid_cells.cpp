@@ -42,8 +42,11 @@ std::unique_ptr<Element> make_solid_cell(const CellPlan& plan, BlockStore* block
 double handedness(CellShape shape, const std::vector<Vec3>& places) {
   const auto corner = [&places](int i) { return places[static_cast<std::size_t>(i)]; };
   if (!is_solid(shape)) {
-    double area = 0;  // twice the signed area of the polygon of corners
-    for (const auto& [a, b] : sides(shape)) area += corner(a)[0] * corner(b)[1] - corner(a)[1] * corner(b)[0];
+    double area = 0;                           // twice the signed area of the polygon of corners
+    for (const auto& [a, b] : sides(shape)) {  // from corner 0, as products of places far from the origin are rounding
+      const Vec3 p = corner(a) - corner(0), q = corner(b) - corner(0);
+      area += p[0] * q[1] - p[1] * q[0];
+    }
     return area;
   }
   Vec3 base = Vec3::Zero(), centre = Vec3::Zero();  // twice the area vector of the base; centre of the corners

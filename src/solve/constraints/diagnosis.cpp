@@ -312,8 +312,12 @@ std::string explain_unresolved(const Assembler& assembler, const References& ref
   } worst{visible, assembler.rank()};  // layout of MPI_DOUBLE_INT
   double worst_noise = 0;
   int worst_equation = -1, culprit = -1;
+  // where constraints are closed by positions there are no remainders
+  const std::vector<double>& remainders = configuration.remainders;
+  const bool kept = std::any_of(remainders.begin(), remainders.end(), [](double left) { return left != 0; });
   for (const int p : assembler.own_parts()) {
     const Element& element = *parts[static_cast<std::size_t>(p)].element;
+    if (kept && element.sees_remainders()) continue;
     const auto& slots = numbering.part_slots(p);
     const std::size_t n = slots.size(), of_nodes = static_cast<std::size_t>(element.layout().node_slots());
     const auto k = assembler.element_tangent(p, configuration, {1, 0, 0, 0}).k;

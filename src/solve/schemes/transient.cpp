@@ -25,7 +25,8 @@ AlphaScheme AlphaScheme::hht(double alpha) { return {0, alpha, 0.25 * (1 + alpha
 AlphaScheme AlphaScheme::bossak(double alpha) { return {-alpha, 0, 0.25 * (1 + alpha) * (1 + alpha), 0.5 + alpha}; }
 
 double AlphaScheme::gain_of_noise() const {
-  constexpr int most = 1000;  // steps; it grows without end where nothing is damped
+  constexpr int most = 1000;        // steps
+  constexpr double largest = 5000;  // as with ρ∞ = 0.99: it grows without end where nothing is damped
   // a/δ = C/h² (z − 1)² (z + m) / ((z + f)(z² + s z + p)), with C = (1 − α_m)/((1 − α_f) β) that of the step itself
   const double m = alpha_m / (1 - alpha_m), f = alpha_f / (1 - alpha_f);
   const double s = (0.5 + gamma - 2 * beta) / beta, p = (0.5 - gamma + beta) / beta;
@@ -36,7 +37,7 @@ double AlphaScheme::gain_of_noise() const {
     squares += response * response;
     last[2] = std::exchange(last[1], std::exchange(last[0], response));
   }
-  return std::sqrt(squares);
+  return std::min(std::sqrt(squares), largest);
 }
 
 namespace {
