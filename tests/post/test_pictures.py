@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import h5py
 import models
 import numpy as np
 import pytest
@@ -20,6 +21,15 @@ def scene(path: Path):
     from engrane_post.scene import Scene
 
     return Scene(Results(path))
+
+
+def test_models_far_from_the_origin_are_refused(two: Path, command) -> None:
+    """Shapes have seven digits: a traceback told so."""
+    with h5py.File(two, "r+") as file:
+        points = file["model/points"]
+        points[...] = points[...] + [5e5, 5.2e6, 0]
+    status, _, errors = command("picture", two, "-o", two.with_suffix(".png"))
+    assert status == 1 and "times its size away from the origin" in errors
 
 
 @pytest.mark.parametrize(
