@@ -106,9 +106,9 @@ class Scene:
         away = float(np.abs(self.result.points).max(initial=0.0))
         if away > FARTHEST * self.size:
             raise UserError(
-                f"{self.result.path} cannot be drawn: the model is {away / self.size:.2g} times its size away "
-                "from the origin. Write its coordinates from a place near it. ParaView opens the .xdmf, and "
-                "engrane export --mesh writes the mesh with all digits."
+                f"{self.result.path} cannot be drawn: the model is {away / self.size:.2g} times its size "
+                "away from the origin. Write its coordinates from a place near it. ParaView opens the .xdmf, "
+                "and engrane export --mesh writes the mesh with all digits."
             )
 
     def corners(self, frames: list[Frame]) -> np.ndarray:
