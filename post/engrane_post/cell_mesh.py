@@ -142,7 +142,13 @@ def of_file(
     if flat:
         notes.append(f"{count(flat, 'cells')} left out: without content, or with one node twice.")
     if not out.blocks:
-        raise UserError(f"{path} has no cells with any content; {count(main, 'cells')} left out.")
+        upright = dimension == 2 and not membranes and _stand_upright(points, blocks)
+        raise UserError(
+            f"{path} has no cells in the x-y plane, where plane cells lie: {count(main, 'cells')} left out. "
+            "Turn the mesh, or import it with --as membranes."
+            if upright
+            else f"{path} has no cells with any content; {count(main, 'cells')} left out."
+        )
     if turned:
         notes.append(f"{turned} of {main} cells are numbered inside out; they have been turned.")
     if folded:
@@ -194,6 +200,15 @@ def shapes(points: np.ndarray, kind: Kind, nodes: np.ndarray, in_space: bool = F
         found[~(back | ahead) | twice] = DEGENERATE
         out[start : start + CHUNK] = found
     return out
+
+
+def _stand_upright(points: np.ndarray, blocks: list[tuple[str, np.ndarray]]) -> bool:
+    """Whether plane cells would have an area if they might lie in any plane."""
+    return any(
+        (shapes(points, kind, nodes, in_space=True) != DEGENERATE).any()
+        for name, nodes in blocks
+        if len(nodes) and (kind := BY_NAME.get(name)) and kind.dimension == 2
+    )
 
 
 def _in_own_plane(x: np.ndarray) -> np.ndarray:

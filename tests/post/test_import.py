@@ -423,6 +423,10 @@ def test_nothing_left(command, tmp_path: Path) -> None:
         meshio.Mesh(points, [block]).write(tmp_path / "m.vtu")
         status, out, err = command("import", tmp_path / "m.vtu", "-o", tmp_path / "d.dat")
         assert (status, out) == (1, "") and said in err and "m.vtu" in err
+    upright = np.array([[0, 0, 0], [1, 0, 0], [1, 0, 1], [0, 0, 1]], float)
+    meshio.Mesh(upright, [("quad", np.array([[0, 1, 2, 3]]))]).write(tmp_path / "m.vtu")
+    status, _, err = command("import", tmp_path / "m.vtu", "-o", tmp_path / "d.dat")
+    assert status == 1 and "no cells in the x-y plane" in err and "--as membranes" in err
     assert not (tmp_path / "d.dat").exists()
 
 
