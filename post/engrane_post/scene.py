@@ -13,7 +13,6 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from . import belts, cells, linkage, loads, shapes
-from .errors import UserError
 from .graphics import pv
 from .results import Element, Frame, Results
 from .wheels import collect
@@ -22,8 +21,6 @@ WHEEL_COLORS = ("#6d8fb5", "#c58f4a", "#7aa06c", "#a97ba8", "#b5695c", "#5f9ea0"
 MARK, DARK, STEEL, BODY = "#d1571b", "#3c4650", "#8d979f", "#5d6b78"
 SPRING, ARROW, GROUND, CELL = "#2a8a4a", "#c02a2a", "#70665a", "#86a8c8"
 BAND = "#2f3338"
-# places may be so many sizes of the model away from the origin
-FARTHEST = 1e5
 
 
 # What a drawn thing is, from the `shape` that the result gives it.
@@ -77,7 +74,7 @@ class Scene:
         self.carried: dict[int, tuple[int, np.ndarray]] = {}
         joints = [j for j in (linkage.joint(self, e) for e in result.elements) if j]
         self.size = self._size([place for j in joints for _, place in j.ends()] + self._rims())
-        self._refuse_far_places()
+        shapes.refuse_far_places(result.path, result.points, self.size)
         self.link_slots: dict[int, int] = {}
         self.bodies: dict[int, int] = {}
         for element in result.elements:
@@ -100,16 +97,6 @@ class Scene:
         self._linkage(joints)
         self._cells(drawn)
         self._grounds()
-
-    def _refuse_far_places(self) -> None:
-        """Shapes are drawn with seven digits, of which a model far from the origin would need all."""
-        away = float(np.abs(self.result.points).max(initial=0.0))
-        if away > FARTHEST * self.size:
-            raise UserError(
-                f"{self.result.path} cannot be drawn: the model is {away / self.size:.2g} times its size "
-                "away from the origin. Write its coordinates from a place near it. ParaView opens the .xdmf, "
-                "and engrane export --mesh writes the mesh with all digits."
-            )
 
     def corners(self, frames: list[Frame]) -> np.ndarray:
         """Points (k x 3) that hold the model at all the frames: nodes, rims of the wheels, boxes of the

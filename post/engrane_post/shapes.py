@@ -4,13 +4,17 @@
 from __future__ import annotations
 
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 
 from . import gear_mesh
+from .errors import UserError
 from .graphics import pv
 from .rack_mesh import rack_mesh
 from .wheels import Wheel
+
+FARTHEST = 1e5  # from the origin, in sizes of the model
 
 
 def unit(v: np.ndarray) -> np.ndarray:
@@ -23,6 +27,17 @@ def square_to(axis: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Two unit vectors that make a right-handed frame with the axis."""
     frame = gear_mesh.frame_of(unit(axis), np.array([0.0, 1.0, 0.1]))
     return frame[:, 1], frame[:, 2]
+
+
+def refuse_far_places(path: Path, points: np.ndarray, size: float) -> None:
+    """Shapes are drawn with seven digits, of which a model far from the origin would need all."""
+    away = float(np.abs(points).max(initial=0.0))
+    if away > FARTHEST * size:
+        raise UserError(
+            f"{path} cannot be drawn: the model is {away / size:.2g} times its size away from the origin. "
+            "Write its coordinates from a place near it. ParaView opens the .xdmf, and engrane export --mesh "
+            "writes the mesh with all digits."
+        )
 
 
 def quads(points: np.ndarray, corners: np.ndarray) -> pv.PolyData:

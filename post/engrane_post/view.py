@@ -21,6 +21,7 @@ DIRECTIONS = {
 MARGIN = 1.12  # of the picture over the model
 BELOW = 0.03  # of the height, under the caption
 LINE = 26  # pixels: the height of a line of text
+LETTER = 11  # pixels: at most the mean width of a letter
 
 
 def direction(scene: Scene, frames: list[Frame]) -> tuple[np.ndarray, np.ndarray]:
@@ -160,7 +161,8 @@ def write(plotter: pv.Plotter, text: str, place: tuple[float, float], name: str)
 
 def write_caption(plotter: pv.Plotter, text: str) -> None:
     """Below on the right, instead of the one before."""
-    write(plotter, text, (min(0.78, 1 - 0.0125 * len(text)), BELOW), "caption")
+    width = plotter.window_size[0] / plotter.shape[1]  # of one view
+    write(plotter, text, (max(0.02, min(0.78, 1 - LETTER * len(text) / width)), BELOW), "caption")
 
 
 def caption(result: Results, frame: Frame) -> str:

@@ -278,7 +278,7 @@ std::optional<Trial> Attempt::sharper() {
   SolverOptions next = trial_.settled ? *trial_.settled : with_tolerance(task_.reading.model, trial_.options, tolerance);
   next.longest = longest;
   const bool kept = longest == trial_.options.longest && companion_->serves(tolerance);
-  if (kept) companion_->succeed(runner_->steps(), next);
+  if (kept) companion_->succeed(runner_->steps(), next, scheme_->lost_vibrations());
   return Trial{.options = next,
                .complete = trial_.options,
                .keeps_companion = kept,

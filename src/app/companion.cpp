@@ -113,7 +113,6 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
   // otherwise both meet the first event, before which they are alike, at the same wrong instant
   if (model.commands.analysis.events.values.empty())
     loose.event_tolerance = std::max(loose.event_tolerance, blunter * options.event_tolerance);
-  loose.target = 0;  // it needs no estimate of its own
   precision_ = loose.precision;
   estimate_.tolerance = options.tolerance;
   estimate_.begins_looser = options.family == SolverOptions::Family::radau;
@@ -179,6 +178,7 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
   } catch (const std::out_of_range&) {
     if (!resumption) throw;  // else the run itself tells why it cannot go on
   }
+  if (const LostVibrations* const lost = scheme->lost_vibrations()) lost_periods_ = lost->periods();
   find_loads(runner.references());
   steps_ = runner.steps();
   follows_tolerance_ = follows(steps_, last);
@@ -321,7 +321,8 @@ bool Companion::serves(double tolerance) const {
   return ratio >= least_looser && ratio <= most_looser;
 }
 
-void Companion::succeed(long steps, const SolverOptions& next) {
+void Companion::succeed(long steps, const SolverOptions& next, const LostVibrations* lost) {
+  lost_periods_ = lost ? lost->periods() : std::vector<double>();
   const double now = processor_time();
   estimate_.earlier_seconds += estimate_.companion_seconds;
   estimate_.companion_seconds = now - std::exchange(begun_, now);
@@ -445,6 +446,12 @@ double Companion::scale_of(std::size_t c) const {
   return column.range() < ceases * companion.range() ? column.size() : column.range();
 }
 
+bool Companion::contradicts(const LostVibrations& lost, std::size_t slot) const {
+  constexpr double same = 1.3;
+  const double own = lost.period(slot), other = slot / 3 < lost_periods_.size() ? lost_periods_[slot / 3] : 0;
+  return own > 0 && other > 0 && (own > same * other || other > same * own);
+}
+
 LostChannel Companion::lost_acceleration(const Column& column, const LostVibrations& lost) const {
   const bool turns = column.dimension == dimension::angular_acceleration;
   if (column.node < 0 || (!turns && column.dimension != dimension::acceleration)) return {};
@@ -459,6 +466,7 @@ LostChannel Companion::lost_acceleration(const Column& column, const LostVibrati
     // it is told of the one that changes most
     if (column.range() < std::max({x[0].range(), x[1].range(), x[2].range()})) return {};
   }
+  if (contradicts(lost, first)) return {};
   return {missing / range, column.owner + "/" + column.channel, lost.period(first)};
 }
 
@@ -476,6 +484,7 @@ LostChannel Companion::lost_force(const Column& column, const LostVibrations& lo
   for (const int node : column.nodes) {
     if (node == 0) continue;
     const auto first = static_cast<std::size_t>(6 * node);
+    if (contradicts(lost, first)) continue;
     const double error = lost.missing_force(first) / column.range();
     // the force has shown what was lost, unless another element carries it
     if (error > most.error && error < largest_lost) most = {error, column.owner + "/" + column.channel, lost.period(first)};
@@ -488,6 +497,7 @@ LostChannel Companion::lost_speed(const Column& column, const LostVibrations& lo
   const int a = column.nodes.front(), b = column.nodes.size() == 2 ? column.nodes.back() : 0;
   if (a == b) return {};
   const std::size_t first = lost.relative(a, b) + (column.dimension == dimension::angular_velocity ? 3 : 0);
+  if (contradicts(lost, first)) return {};
   LostChannel most;
   for (std::size_t slot = first; slot < first + 3; ++slot) {
     const double error = lost.missing_speed(slot) / column.range(), ratio = lost.range_of_speed(slot) / column.range();

@@ -56,8 +56,9 @@ class Companion {
   const std::string& trouble() const { return estimate_.trouble; }
   /// Whether the run itself may be the companion of one with this tolerance. On all ranks.
   bool serves(double tolerance) const;
-  /// Makes the run itself, of this number of steps, the companion of a run with the options `next`. On all ranks.
-  void succeed(long steps, const SolverOptions& next);
+  /// Makes the run itself, of this number of steps and with the vibrations that these have lost, if the scheme knows them, the
+  /// companion of a run with the options `next`. On all ranks.
+  void succeed(long steps, const SolverOptions& next, const solve::LostVibrations* lost);
   /// Differences of the two runs by channel; empty before the run itself, and on ranks other than 0.
   std::vector<double> differences() const;
   /// Gives the differences() of a companion and its run, both with a greater TOL, to this one.
@@ -113,6 +114,9 @@ class Companion {
   LostChannel lost_acceleration(const Column& column, const solve::LostVibrations& lost) const;
   LostChannel lost_force(const Column& column, const solve::LostVibrations& lost) const;
   LostChannel lost_speed(const Column& column, const solve::LostVibrations& lost) const;
+  /// Whether the companion has lost a vibration with another period in this slot. Then it is none of the model: a force that
+  /// bends within a step, as that of a contact does, looks like one with a period that is proportional to the step.
+  bool contradicts(const solve::LostVibrations& lost, std::size_t slot) const;
   /// Difference between the run and its companion in a column, from their rows of values at an instant.
   double difference(std::size_t column, const double* run, const double* companion) const;
   /// Difference between the two runs in a channel: root of the mean square over time.
@@ -132,6 +136,7 @@ class Companion {
   /// angular momentum of a free body, have no range of their own.
   double scale_of(std::size_t c) const;
   std::vector<Column> columns_;
+  std::vector<double> lost_periods_;     ///< of what the companion has lost (LostVibrations::periods)
   std::vector<std::string> unjudged_;    ///< channels asked for by name that are never compared
   bool placed_ = true;                   ///< Column::at is known
   bool judges_run_ = false;              ///< a channel of the whole model is compared

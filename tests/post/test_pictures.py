@@ -24,7 +24,7 @@ def scene(path: Path):
 
 def test_models_far_from_the_origin_are_refused(two: Path, command, monkeypatch: pytest.MonkeyPatch) -> None:
     """Shapes have seven digits; beyond, a traceback told so."""
-    monkeypatch.setattr("engrane_post.scene.FARTHEST", 0.1)
+    monkeypatch.setattr("engrane_post.shapes.FARTHEST", 0.1)
     status, _, errors = command("picture", two, "-o", two.with_suffix(".png"))
     assert status == 1 and "times its size away from the origin" in errors
 

@@ -153,7 +153,9 @@ Schema analysis_card() {
       .at_least(0);
   card.add(
           "RESTART", &AnalysisCard::restart,
-          "continue these results (a path without .h5) from a restart point; `.SUB`, `.SAM`, `.SAI`, "
+          "continue these results (a path without .h5, from the folder where the program is started) from a restart point; "
+          "`.SUB`, "
+          "`.SAM`, `.SAI`, "
           "checks, loads and temperatures (all of `.CLM` but FIX and DEP) "
           "and functions may differ from the run that wrote them; the model may not, and supports and elements of `.MCE` such as "
           "FORCE are part of it. Drives must begin where the restart point stands; where their speeds differ from those up to "

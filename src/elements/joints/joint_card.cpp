@@ -303,7 +303,10 @@ bool add_friction(const JointData& data, const BuildContext& context, JointParts
     return false;
   }
   if (words.needs_radius && !(data.radius > 0)) {
-    context.error("FRICTION", "friction needs RADIUS", fmt::format("RADIUS r: {}", words.radius));
+    context.error(
+        "FRICTION", "friction needs RADIUS",
+        fmt::format("RADIUS r: {}{}", words.radius,
+                    data.collar > 0 ? "; where only the collar rubs, as in a disc clutch, one far smaller than THRUST" : ""));
     return false;
   }
   f.law.width = data.friction_width.value_or(0);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include "solve/constraints/constraint_factors.hpp"
 
@@ -14,10 +16,10 @@ namespace {
 constexpr double epsilon = std::numeric_limits<double>::epsilon(), none = std::numeric_limits<double>::quiet_NaN();
 /// Rounding of positions is visible if its force, as several steps add it up, exceeds this fraction of the loads.
 constexpr double seen = 5e-7;
-/// Root of the mean square of the rounding of a position of the size of its length, over ε of that length.
-constexpr double rounded = 0.3;
 /// And this fraction of the squared rotation of a step: the scheme's own error of reactions is about a tenth of that square.
 constexpr double seen_of_scheme = 0.01;
+/// Root of the mean square of the rounding of a position of the size of its length, over ε of that length.
+constexpr double rounded = 0.3;
 /// A constraint has parts of hardly any mass on both sides if its stiffness is below this fraction of another's on one of them.
 constexpr double light = 1e-6;
 /// Violations that sums of changes leave are closed so slowly that the force for it is this fraction of the loads.
@@ -30,14 +32,17 @@ constexpr double smooth = 1e-14;
 }  // namespace
 
 ConstraintChanges::ConstraintChanges(Assembler& assembler, const Newton& newton, const MotionSlots& motion, double gain)
-    : assembler_(assembler), newton_(newton), motion_(motion), gain_(gain), joined_(2 * assembler.model().nodes.size()) {
+    : assembler_(assembler), newton_(newton), motion_(motion), gain_(gain) {
   const Model& model = assembler.model();
   const int count = assembler.numbering().slots() - assembler.numbering().motion_slots();
+  std::map<std::pair<int, bool>, std::vector<int>> of_node;
   for (int m = 0; m < count; ++m) {
     const Unknown& u = assembler.numbering().multiplier(m);
     for (const int node : model.parts[static_cast<std::size_t>(u.part)].nodes)
-      if (node != 0) joined_[2 * static_cast<std::size_t>(node) + (u.rotational() ? 1 : 0)].push_back(m);
+      if (node != 0) of_node[{node, u.rotational()}].push_back(m);
   }
+  for (auto& [node, multipliers] : of_node)
+    if (multipliers.size() > 1) joined_.push_back(std::move(multipliers));
 }
 
 const std::vector<double>& ConstraintChanges::stiffnesses() {

@@ -38,7 +38,7 @@ class ConstraintChanges {
   const MotionSlots& motion_;
   double gain_;
   std::vector<double> scale_, stiffness_;  ///< the scales that stiffnesses() had last, and what it made of them
-  std::vector<std::vector<int>> joined_;   ///< by node, twice: multipliers that are forces, and that are moments
+  std::vector<std::vector<int>> joined_;   ///< multipliers at each node, forces and moments apart, where there are several
   std::vector<int> parts_;                 ///< elements whose constraints are closed by their change, ascending
   std::vector<double> given_;  ///< part of Φ at the beginning that the step is to close; NaN: Φ is taken from positions
   Configuration between_;

@@ -260,6 +260,12 @@ double LostVibrations::period(std::size_t slot) const {
   return rate > 0 ? 2 * std::numbers::pi / rate : 0;
 }
 
+std::vector<double> LostVibrations::periods() const {
+  std::vector<double> all;
+  for (std::size_t slot = 0; slot < 3 * groups_.size(); slot += 3) all.push_back(period(slot));
+  return all;
+}
+
 double LostVibrations::missing_speed(std::size_t slot) const {
   const double rate = groups_[slot / 3].lost_rate;
   return rate > 0 ? missing(slot) / rate : 0;

@@ -59,6 +59,8 @@ class LostVibrations {
   double range_of_speed(std::size_t slot) const;
   /// Period of the vibration with this slot of which a step has lost most; 0 if there was none.
   double period(std::size_t slot) const;
+  /// The periods by group of three slots.
+  std::vector<double> periods() const;
 
  private:
   /// What a step makes of exp(zt/h).
