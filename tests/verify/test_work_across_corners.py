@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from runs import solve
+from runs import Run, solve
 
 # a bar of two cells, held at one end and across
 BAR = """
@@ -54,21 +54,18 @@ JUMP = "if(T < 0.001, 0, 1)"
 CORNERS = "min(1, T/0.0002) - max(0, min(1, (T - 0.004)/0.001))"
 
 
+def solved(deck: str, function: str, sam: str, sub: str, folder: Path) -> Run:
+    """The deck at ACCURACY FINE, which must say nothing of its energy."""
+    end = f".SAM TYPE DYNAMIC ACCURACY FINE {sam}\n.SUB {sub}\n.FIN 1\n"
+    account, result = solve(f'{deck}.FCT\n I 1 EXPR "{function}"\n{end}', folder)
+    assert "energy" not in account["said"]
+    return result
+
+
 @pytest.mark.parametrize("function", [JUMP, CORNERS])
 def test_temperatures(function: str, tmp_path: Path) -> None:
-    account, bar = solve(
-        BAR
-        + f"""
-.FCT
- I 1 EXPR "{function}"
-.SAM TYPE DYNAMIC ACCURACY FINE
-.SUB TF 0.01 H 5E-5
-.FIN 1
-""",
-        tmp_path,
-    )
+    bar = solved(BAR, function, "", "TF 0.01 H 5E-5", tmp_path)
     work = bar["run/EXTERNAL_WORK"]
-    assert "energy" not in account["said"]
     assert np.abs(bar["run/ENERGY_ERROR"]).max() < 1e-5 * np.abs(work).max()
     if function == JUMP:  # before anything moves, E (a V)^2/2 of each direction in its plane
         after = np.argmax(bar.t > 0.001 + 1e-9)
@@ -77,16 +74,5 @@ def test_temperatures(function: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("function", ["1 - 0.05*max(0, T - 0.2)", "if(T < 0.3, 1, 0.9999)"])
 def test_winches(function: str, tmp_path: Path) -> None:
-    account, winch = solve(
-        WINCH
-        + f"""
-.FCT
- I 1 EXPR "{function}"
-.SAM TYPE DYNAMIC ACCURACY FINE START STATIC
-.SUB TF 0.6 H 0.01
-.FIN 1
-""",
-        tmp_path,
-    )
-    assert "energy" not in account["said"]
+    winch = solved(WINCH, function, "START STATIC", "TF 0.6 H 0.01", tmp_path)
     assert np.abs(winch["run/ENERGY_ERROR"]).max() < 1e-5 * np.ptp(winch["run/EXTERNAL_WORK"])
